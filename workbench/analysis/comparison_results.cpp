@@ -67,13 +67,15 @@ ConditionResult condition_of(const ComparisonCondition& condition, const experim
   if (count > 0.0) {
     out.mean_trials = trials / count;
     out.spread = fitter.common_spread(fits);
-    double bias = 0.0;
+    double bias = 0.0, told = 0.0;
     for (StaircaseResult& one : staircases) {
       if (one.condition != condition.name) continue;
       one.rule_bias = fitter.rule_bias(one.fitted.segments, out.spread.spread);
-      bias += std::log(one.rule_bias) / count;
+      if (std::isnan(one.rule_bias)) continue;
+      told += 1.0;
+      bias += std::log(one.rule_bias);
     }
-    out.rule_bias = std::exp(bias);
+    out.rule_bias = told > 0.0 ? std::exp(bias / told) : std::nan("");
   }
   out.segments = mean_interval(out.thresholds);
   if (out.thresholds.empty()) return out;

@@ -39,7 +39,7 @@ struct ConditionResult {
   double degrees = 0.0;  ///< at the mean, and at those ends: fewer segments, more degrees
   double degrees_low = 0.0, degrees_high = 0.0;
   double mean_trials = 0.0;
-  double rule_bias = 1.0;  ///< geometric mean of the staircases'
+  double rule_bias = 1.0;  ///< geometric mean of the staircases' that have one; NaN: none has
   SpreadInterval spread;   ///< of the psychometric function, all participants together
 };
 

@@ -31,10 +31,8 @@ std::string difference(const Enrolment& begun, const Enrolment& now) {
   return begun.mark.pilot ? "as a pilot run" : "not as a pilot run";
 }
 
-/// A sidecar that is there has to be this participant's.
-Status check_sidecar(const fs::path& sidecar, const Protocol& protocol, const Enrolment& enrolment) {
-  std::error_code error;
-  if (!fs::exists(sidecar, error)) return write_sidecar(sidecar, protocol, enrolment);
+/// Whether who has begun goes on as before: a sidecar that is there has to be this participant's.
+Status check_sidecar(const fs::path& sidecar, const Enrolment& enrolment) {
   const auto begun = read_sidecar_head(sidecar);
   if (!begun) return tl::unexpected(begun.error());
   if (begun->enrolment == enrolment) return {};
@@ -78,12 +76,14 @@ Result<RowFile> enrol(const fs::path& folder, const Protocol& protocol, const st
   if (error)
     return fail("can't be made: " + error.message(), rows.parent_path().string(),
                 "choose a folder that may be written");
-  if (fs::exists(sidecar, error))  // who is refused leaves no protocol behind
-    if (Status ok = check_sidecar(sidecar, protocol, enrolment); !ok) return tl::unexpected(ok.error());
+  const bool begun = fs::exists(sidecar, error);
+  if (begun)  // first: who is refused leaves no protocol behind
+    if (Status ok = check_sidecar(sidecar, enrolment); !ok) return tl::unexpected(ok.error());
   const fs::path kept = protocol_path(folder, enrolment.protocol_digest);
   if (!fs::exists(kept, error))
     if (Status ok = write_file_atomic(kept, protocol_text); !ok) return tl::unexpected(ok.error());
-  if (Status ok = check_sidecar(sidecar, protocol, enrolment); !ok) return tl::unexpected(ok.error());
+  if (!begun)
+    if (Status ok = write_sidecar(sidecar, protocol, enrolment); !ok) return tl::unexpected(ok.error());
   Fields columns;
   for (const ColumnMeaning& column : columns_of(protocol)) columns.emplace_back(column.name);
   auto file = RowFile::open(rows, columns, enrolment.identity());
