@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace tangent {
 namespace {
@@ -58,6 +59,30 @@ double distance_to_segment(const Vec2& a, const Vec2& b, const Vec2& at) {
   return glm::length(at - a - part * way);
 }
 
+/// Of every patch, from its first half's direction to its last half's and, behind a corner, to the next patch's first.
+std::vector<DirectionRange> directions_of(std::span<const CurvePatch> patches) {
+  // The direction itself, as many times round as it takes to go on from `at`: rounding does not add up.
+  const auto going_on = [](double at, const Vec2& way) {
+    return at + std::remainder(std::atan2(way.y, way.x) - at, 2.0 * std::numbers::pi);
+  };
+  const auto first_way = [](const CurvePatch& p) {
+    return p.vertex == p.first ? p.last - p.first : p.vertex - p.first;
+  };
+  const auto last_way = [](const CurvePatch& p) { return p.vertex == p.last ? p.last - p.first : p.last - p.vertex; };
+  std::vector<DirectionRange> out(patches.size());
+  double first = going_on(0.0, first_way(patches[0]));
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    const CurvePatch &p = patches[i], &next = patches[i + 1 < patches.size() ? i + 1 : 0];
+    // At a smooth joint the next patch begins as this one ends.
+    const double last = p.joint_after == CurveJoint::smooth ? first : going_on(first, last_way(p));
+    const double beyond = going_on(last, first_way(next));
+    out[i] = {std::min({first, last, beyond}), std::max({first, last, beyond})};
+    if (p.joint_before == CurveJoint::end || p.joint_after == CurveJoint::end) out[i] = {-1e300, 1e300};
+    first = beyond;
+  }
+  return out;
+}
+
 PatchIndex index_of(std::span<const CurvePatch> patches, double size) {
   const Vec2 rounding(kRoundingRoom * size);
   std::vector<PlanarBox> boxes;
@@ -67,7 +92,7 @@ PatchIndex index_of(std::span<const CurvePatch> patches, double size) {
     const Vec2& next = patches[i + 1 < patches.size() ? i + 1 : 0].vertex;
     if (patches[i].joint_after == CurveJoint::smooth) boxes.back().include(PlanarBox{next - rounding, next + rounding});
   }
-  return PatchIndex::build(boxes);
+  return PatchIndex::build(boxes, directions_of(patches), kRoundingRoom * size);
 }
 
 }  // namespace

@@ -1,20 +1,56 @@
 #include "core/planar/patch_index.h"
 
 #include <bit>
+#include <cmath>
+#include <numbers>
 
 namespace tangent {
+namespace {
 
-PatchIndex PatchIndex::build(std::span<const PlanarBox> items) {
+/// Directions are rounded, and summed up along the curve: a millionth of what a tenth of a degree is, a billion items.
+constexpr double kDirectionRoom = 1e-9;
+
+}  // namespace
+
+PatchIndex PatchIndex::build(std::span<const PlanarBox> items, std::span<const DirectionRange> directions,
+                             double rounding_m) {
   PatchIndex index;
+  index.rounding_m_ = rounding_m;
   index.count_ = static_cast<std::uint32_t>(items.size());
   index.leaves_ = std::bit_ceil((index.count_ + kRun - 1) / kRun);
   index.nodes_.resize(2 * std::size_t{index.leaves_});
-  for (std::uint32_t i = 0; i < index.count_; ++i) index.nodes_[index.leaves_ + i / kRun].include(items[i]);
+  std::vector<DirectionRange> ranges(index.nodes_.size());
+  for (std::uint32_t i = 0; i < index.count_; ++i) {
+    index.nodes_[index.leaves_ + i / kRun].include(items[i]);
+    ranges[index.leaves_ + i / kRun].include(directions[i]);
+  }
   for (std::uint32_t node = index.leaves_ - 1; node > 0; --node) {
-    index.nodes_[node] = index.nodes_[2 * std::size_t{node}];
-    index.nodes_[node].include(index.nodes_[2 * std::size_t{node} + 1]);
+    for (const std::size_t child : {2 * std::size_t{node}, 2 * std::size_t{node} + 1}) {
+      index.nodes_[node].include(index.nodes_[child]);
+      ranges[node].include(ranges[child]);
+    }
+  }
+  index.cones_.resize(ranges.size());
+  for (std::size_t node = 1; node < ranges.size(); ++node) {
+    const double half = 0.5 * (ranges[node].high_rad - ranges[node].low_rad) + kDirectionRoom;
+    if (!(half < 0.5 * std::numbers::pi)) continue;
+    const double middle = 0.5 * (ranges[node].low_rad + ranges[node].high_rad);
+    index.cones_[node] = {{std::cos(middle), std::sin(middle)}, std::cos(half), std::sin(half)};
   }
   return index;
+}
+
+// A place P holds a contact in direction d where (at - P).d = 0. With w from the box's middle to `at` and `reach` half
+// its diagonal, (at - P).d lies within `reach` of w.d, and w.d between |w| cos(a + half) and |w| cos(a - half), where a
+// is the angle between w and the middle direction. So all are ahead if |w| cos(a + half) > reach; behind likewise.
+bool PatchIndex::passes_by(std::uint32_t node, const Vec2& at) const {
+  const PlanarBox& box = nodes_[node];
+  const Cone& cone = cones_[node];
+  const Vec2 w = at - 0.5 * (box.low + box.high), size = box.high - box.low;
+  const double along = std::abs(glm::dot(w, cone.middle));
+  const double across = std::abs(w.x * cone.middle.y - w.y * cone.middle.x);
+  const double clear = along * cone.cos_half - across * cone.sin_half - rounding_m_;
+  return clear > 0.0 && 4.0 * clear * clear > glm::dot(size, size);
 }
 
 }  // namespace tangent

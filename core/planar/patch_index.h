@@ -1,12 +1,15 @@
 // Which patches and segments of a planar curve are near a place, without looking at the others.
 //
 // Neighbours on the curve are neighbours in the plane, so the order of the polygon is the order of the tree: each node
-// is a box around a run of patches, half of it on either side below. Immutable; a query allocates nothing.
+// is a box around a run of patches, half of it on either side below, with the directions in which the curve goes there.
+// Immutable; a query allocates nothing.
 #pragma once
 
 #include "core/base/vec.h"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,28 +27,67 @@ struct PlanarBox {
   }
 };
 
+/// Directions of a run of the curve, rad. They go on where the item before ended, so that runs can be joined: after a
+/// left turn all the way round they are 2 pi larger.
+struct DirectionRange {
+  double low_rad = 1e300, high_rad = -1e300;
+  void include(const DirectionRange& r) {
+    low_rad = std::min(low_rad, r.low_rad), high_rad = std::max(high_rad, r.high_rad);
+  }
+};
+
 class PatchIndex {
  public:
-  /// One box an item, in the curve's order.
-  static PatchIndex build(std::span<const PlanarBox> items);
+  /// One box an item, and the directions of its tangent lines and of those in the corner behind it, in the curve's
+  /// order. An item with an end of the curve has all directions. `rounding_m`: by what a place may lie off its box.
+  static PatchIndex build(std::span<const PlanarBox> items, std::span<const DirectionRange> directions,
+                          double rounding_m);
 
-  /// Calls look(item) for every item whose run's box is within sqrt(bound2) of `at`, nearer boxes first. `look` may
+  /// Calls look(item) for every item whose run's box is within sqrt(bound2) of `at`, nearer runs first. `look` may
   /// lower the bound; what lies at the bound exactly is still looked at, so that ties can go to the lowest item.
   template <class Look>
-  void each_within(const Vec2& at, const double& bound2, Look look) const;
+  void each_within(const Vec2& at, const double& bound2, Look look) const {
+    visit(
+        at, bound2, [](std::uint32_t) { return false; }, look);
+  }
 
-  std::size_t memory_bytes() const { return nodes_.size() * sizeof(PlanarBox); }
+  /// The same without runs in which no place's normal passes through `at`: those cannot hold a contact.
+  template <class Look>
+  void each_facing(const Vec2& at, const double& bound2, Look look) const {
+    visit(
+        at, bound2, [&](std::uint32_t node) { return passes_by(node, at); }, look);
+  }
+
+  std::size_t memory_bytes() const { return nodes_.size() * (sizeof(PlanarBox) + sizeof(Cone)); }
 
  private:
   static constexpr std::uint32_t kRun = 8;  ///< items of a leaf
 
+  /// Directions within `half` of the middle one; all of them where cos_half is below 0.
+  struct Cone {
+    Vec2 middle{1.0, 0.0};
+    double cos_half = -1.0, sin_half = 0.0;
+  };
+
+  /// Whether `at` is ahead of every place of the run in every direction of it, or behind all.
+  bool passes_by(std::uint32_t node, const Vec2& at) const;
+  /// The node of the leaf in the middle of a node's run.
+  std::uint32_t middle_leaf(std::uint32_t node) const {
+    const int levels = std::bit_width(leaves_) - std::bit_width(node);
+    return levels == 0 ? node : (node << levels) + (1u << (levels - 1));
+  }
+  template <class Skip, class Look>
+  void visit(const Vec2& at, const double& bound2, Skip skip, Look look) const;
+
   std::uint32_t count_ = 0;       ///< items
   std::uint32_t leaves_ = 1;      ///< a power of two
   std::vector<PlanarBox> nodes_;  ///< as a heap from 1: children of k are 2k and 2k + 1; leaf l is leaves_ + l
+  std::vector<Cone> cones_;       ///< of the nodes
+  double rounding_m_ = 0.0;
 };
 
-template <class Look>
-void PatchIndex::each_within(const Vec2& at, const double& bound2, Look look) const {
+template <class Skip, class Look>
+void PatchIndex::visit(const Vec2& at, const double& bound2, Skip skip, Look look) const {
   struct Entry {
     std::uint32_t node;
     double distance2;
@@ -55,7 +97,7 @@ void PatchIndex::each_within(const Vec2& at, const double& bound2, Look look) co
   stack[size++] = {1, nodes_[1].distance2(at)};
   while (size > 0) {
     const Entry entry = stack[--size];
-    if (entry.distance2 > bound2) continue;
+    if (entry.distance2 > bound2 || skip(entry.node)) continue;
     if (entry.node >= leaves_) {
       const std::uint32_t first = (entry.node - leaves_) * kRun;
       for (std::uint32_t i = first; i < count_ && i < first + kRun; ++i) look(i);
@@ -63,7 +105,9 @@ void PatchIndex::each_within(const Vec2& at, const double& bound2, Look look) co
     }
     Entry near{2 * entry.node, nodes_[2 * entry.node].distance2(at)};
     Entry far{2 * entry.node + 1, nodes_[2 * entry.node + 1].distance2(at)};
-    if (far.distance2 < near.distance2) std::swap(near, far);
+    // Of a bend about `at` both boxes hold it: the runs' middles tell which way the curve comes nearer.
+    if (nodes_[middle_leaf(far.node)].distance2(at) < nodes_[middle_leaf(near.node)].distance2(at))
+      std::swap(near, far);
     if (far.distance2 <= bound2) stack[size++] = far;
     if (near.distance2 <= bound2) stack[size++] = near;
   }

@@ -1,12 +1,10 @@
 #include "core/planar/polygon.h"
 
 #include "core/base/tolerances.h"
+#include "core/planar/crossing.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <optional>
-#include <utility>
 
 namespace tangent {
 
@@ -27,15 +25,10 @@ constexpr double kNearlyClosed = 1e-3;
 /// Sine of the angle within which a segment lies on the one before.
 constexpr double kFoldedSine = 1e-9;
 
-struct Segment {
-  Vec2 a, b;
-  std::size_t from = 0;  ///< vertex
-};
-
 /// Segments that have a length, in order.
-std::vector<Segment> segments_of(const PlanarPolygon& polygon) {
+std::vector<PlanarSegment> segments_of(const PlanarPolygon& polygon) {
   const std::vector<Vec2>& v = polygon.vertices;
-  std::vector<Segment> out;
+  std::vector<PlanarSegment> out;
   const std::size_t count = polygon.closed ? v.size() : v.size() - 1;
   for (std::size_t i = 0; i < count; ++i) {
     const Vec2 b = v[(i + 1) % v.size()];
@@ -79,9 +72,9 @@ Status check_repeats(const PlanarPolygon& polygon) {
   return {};
 }
 
-Status check_folds(const PlanarPolygon& polygon, const std::vector<Segment>& segments) {
+Status check_folds(const PlanarPolygon& polygon, const std::vector<PlanarSegment>& segments) {
   for (std::size_t i = 0; i + (polygon.closed ? 0 : 1) < segments.size(); ++i) {
-    const Segment& next = segments[(i + 1) % segments.size()];
+    const PlanarSegment& next = segments[(i + 1) % segments.size()];
     const Vec2 a = segments[i].b - segments[i].a, b = next.b - next.a;
     const double scale = std::sqrt(glm::dot(a, a) * glm::dot(b, b));
     if (glm::dot(a, b) < 0.0 && std::abs(cross(a, b)) <= kFoldedSine * scale)
@@ -91,46 +84,14 @@ Status check_folds(const PlanarPolygon& polygon, const std::vector<Segment>& seg
   return {};
 }
 
-Status check_ends(const PlanarPolygon& polygon, const std::vector<Segment>& segments) {
+Status check_ends(const PlanarPolygon& polygon, const std::vector<PlanarSegment>& segments) {
   if (polygon.closed) return {};
   double length = 0.0;
-  for (const Segment& s : segments) length += glm::length(s.b - s.a);
+  for (const PlanarSegment& s : segments) length += glm::length(s.b - s.a);
   const double gap = glm::length(polygon.vertices.back() - polygon.vertices.front());
   if (gap >= kNearlyClosed * length / static_cast<double>(segments.size())) return {};
   return fail("the polygon is not closed, but its ends all but meet (" + std::to_string(gap * 1e6) + " um apart)",
               polygon.name, "to close it, repeat the first vertex at the end, exactly");
-}
-
-/// Which side of a-b each end of c-d is on decides; ends on the line count as touching.
-bool touch(const Segment& p, const Segment& q) {
-  const auto apart = [](const Segment& s, const Segment& t) {
-    const double c = cross(s.b - s.a, t.a - s.a), d = cross(s.b - s.a, t.b - s.a);
-    return (c > 0.0 && d > 0.0) || (c < 0.0 && d < 0.0);
-  };
-  const Vec2 p_low = glm::min(p.a, p.b), p_high = glm::max(p.a, p.b), q_low = glm::min(q.a, q.b),
-             q_high = glm::max(q.a, q.b);
-  if (p_high.x < q_low.x || q_high.x < p_low.x || p_high.y < q_low.y || q_high.y < p_low.y) return false;
-  return !apart(p, q) && !apart(q, p);
-}
-
-/// The first crossing that a sweep along x meets.
-std::optional<std::pair<std::size_t, std::size_t>> find_crossing(const std::vector<Segment>& segments, bool closed) {
-  const std::size_t n = segments.size();
-  std::vector<std::size_t> order(n);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto low = [&](std::size_t i) { return std::min(segments[i].a.x, segments[i].b.x); };
-  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return low(i) < low(j); });
-  std::vector<std::size_t> open;
-  for (const std::size_t i : order) {
-    std::erase_if(open, [&](std::size_t j) { return std::max(segments[j].a.x, segments[j].b.x) < low(i); });
-    for (const std::size_t j : open) {
-      const std::size_t gap = i > j ? i - j : j - i;
-      if (gap == 1 || (closed && gap == n - 1)) continue;
-      if (touch(segments[i], segments[j])) return std::pair(std::min(i, j), std::max(i, j));
-    }
-    open.push_back(i);
-  }
-  return std::nullopt;
 }
 
 }  // namespace
@@ -140,7 +101,7 @@ Status check_polygon(const PlanarPolygon& polygon) {
     if (Status status = check_exact_arc(*polygon.exact, polygon.name); !status) return status;
   if (Status status = check_vertices(polygon); !status) return status;
   if (Status status = check_repeats(polygon); !status) return status;
-  const std::vector<Segment> segments = segments_of(polygon);
+  const std::vector<PlanarSegment> segments = segments_of(polygon);
   if (Status status = check_ends(polygon, segments); !status) return status;
   if (Status status = check_folds(polygon, segments); !status) return status;
   if (const auto crossing = find_crossing(segments, polygon.closed))

@@ -17,10 +17,12 @@ struct PlanarRival {
 bool nearest_on_patch(const PlanarContext& context, std::uint32_t i, const PlanarRival& rival, PlanarContact& best,
                       int& evaluations);
 
-/// The nearest of all, of equally near ones that of the lowest patch. Looks at the patches that are near enough.
+/// The nearest of all, of equally near ones that of the lowest patch. Asks the patches that are near enough and face
+/// the finger; of more than 512 of them, the first that the index comes to.
 bool nearest_contact(const PlanarContext& context, PlanarRival rival, PlanarContact& best, int& evaluations);
 
-/// The patch that is nearest to the finger's centre, judged by its ends and its middle, and how near these are.
+/// The patch that is nearest to the finger's centre, judged by its ends and its middle, and how near these are. Where
+/// more than 4,096 are as near but for a few segments' lengths, one of those.
 std::uint32_t nearest_patch(const PlanarContext& context, double& distance_m);
 
 }  // namespace tangent

@@ -59,6 +59,17 @@ std::uint32_t scan_nearest_segment(const PlanarCurve& curve, const Vec2& at, dou
   return nearest;
 }
 
+/// A closed outline r(angle) of many vertices as an open polygon, whose finger's side is the inside.
+template <class Radius>
+PlanarCurve fine_outline(int count, Radius radius) {
+  std::vector<Vec2> v;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / count;
+    v.emplace_back(radius(angle) * std::cos(angle), radius(angle) * std::sin(angle));
+  }
+  return searched_curve(v);
+}
+
 /// A notch of 100 degrees whose bottom is one patch. A finger of 20 mm whose centre is 22 mm up, over the middle,
 /// touches it on both sides.
 PlanarCurve notch() { return searched_curve({{-0.0230, 0.0193}, {0.0, 0.0}, {0.0230, 0.0193}}); }
@@ -95,6 +106,40 @@ TEST_CASE("the index finds the contact that a scan of all patches finds, over ra
   CHECK(contacts > 20000);
   CHECK(deep > 2000);
   CHECK(differ == 0);
+}
+
+TEST_CASE("behind a curve of 100,000 vertices only what faces the finger is asked, and no contact is missed") {
+  const PlanarCurve curve = fine_outline(100000, [](double a) { return 0.04 * (1.0 + 0.2 * std::sin(5.0 * a)); });
+  int most = 0, differ = 0;
+  for (int pose = 0; pose < rounds(40); ++pose) {
+    const double angle = 0.157 * pose, r = 0.055 + 0.002 * (pose % 5);
+    const Vec2 at(r * std::cos(angle), r * std::sin(angle));
+    const PlanarContext x{curve, SolverSettings{}, at - curve.origin(), 0.020, nullptr, 0};
+    PlanarContact fast, slow;
+    int evaluations = 0;
+    const bool found = nearest_contact(x, {kInfinity, {}}, fast, evaluations);
+    most = std::max(most, evaluations);
+    const bool there = scan(x, {kInfinity, {}}, slow);
+    differ += found != there || (found && (fast.place.patch != slow.place.patch || fast.height_m != slow.height_m));
+  }
+  CHECK(differ == 0);
+  CHECK(most < 500);  // 48; of one that asked every patch near enough 95,000
+}
+
+TEST_CASE("a finger at the centre of a circle of 100,000 vertices, which all face it, has an answer after 512") {
+  const PlanarCurve curve = fine_outline(100000, [](double) { return 0.04; });
+  for (const double aside : {0.0, 1e-9, 1e-7, 1e-6, 1e-5, 1e-4}) {
+    const PlanarContext x{curve, SolverSettings{}, Vec2(aside, 0.0) - curve.origin(), 0.0395, nullptr, 0};
+    PlanarContact best;
+    int evaluations = 0;
+    CAPTURE(aside);
+    if (nearest_contact(x, {kInfinity, {}}, best, evaluations))
+      CHECK(std::abs(best.height_m) == doctest::Approx(0.04 - aside).epsilon(1e-9));
+    CHECK(evaluations < 17000);
+    double distance = 0.0;
+    nearest_patch(x, distance);
+    CHECK(std::abs(distance - (0.04 - aside)) < 2e-5);  // 8 segments
+  }
 }
 
 TEST_CASE("the polygon's nearest segment and its obstacles are those of a scan, ties to the lowest") {
