@@ -6,6 +6,7 @@
 #include "workbench/gui/model/app_model.h"
 #include "workbench/gui/model/file_origin_of.h"
 #include "workbench/gui/panels/panels.h"
+#include "workbench/gui/platform/bring_up_shots.h"
 #include "workbench/gui/platform/offscreen.h"
 #include "workbench/gui/platform/save_picture.h"
 #include "workbench/gui/render/scene_renderer.h"
@@ -384,6 +385,12 @@ constexpr WindowView kViews[] = {
     {"palette", "the command palette", Theme::dark, show_surface, look_from_contact_side, 'P', true},
     {"shortcuts", "the sheet of shortcuts", Theme::dark, show_surface, look_from_contact_side, 290},
     {"monitor", "the device monitor after a delay burst, and re-armed", Theme::dark, show_surface, disturb_devices},
+    {"bring-up-home", "a bring-up of the simulated device, before it is homed", Theme::dark, show_bring_up_home,
+     nullptr},
+    {"bring-up-axes", "... while its axes are found by hand", Theme::dark, show_bring_up_axes, nullptr},
+    {"bring-up", "... before a push", Theme::dark, show_bring_up_push, nullptr},
+    {"bring-up-result", "... and at its end", Theme::dark, show_bring_up_result, nullptr},
+    {"calibration", "a rehearsed calibration by a spring scale, at a reading", Theme::dark, show_calibration, nullptr},
     {"plots", "the window with the plots enlarged", Theme::dark, enlarge_plots, look_from_contact_side},
     {"plots-values", "the plots with their numbers beside them", Theme::dark, enlarge_plots, inspect_plots, 0, false,
      PlotsMode::time, true},
