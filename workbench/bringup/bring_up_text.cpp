@@ -126,6 +126,9 @@ std::string stop_line(const StopFacts& s, StepVerdict verdict) {
                  1e3 * s.held_m, 1e3 * s.left_m, verdict == StepVerdict::not_proved ? "; it has none" : "");
 }
 
+/// Never "-0.0".
+double tenths_mm(double metres) { return 0.1 * std::round(1e4 * metres) + 0.0; }
+
 std::string axes_facts(const BringUpView& view, const ForceCapabilities& can) {
   std::string text;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -133,13 +136,13 @@ std::string axes_facts(const BringUpView& view, const ForceCapabilities& can) {
     if (m.verdict == StepVerdict::waiting) continue;
     text += text.empty() ? "" : "; ";
     text += direction_text(asked_direction(i));
-    text += m.why == BringUpWhy::said_no
-                ? std::string(": left out")
-                : text_of(": read %.1f %.1f %.1f mm", 1e3 * m.moved_m.x, 1e3 * m.moved_m.y, 1e3 * m.moved_m.z);
+    text += m.why == BringUpWhy::said_no ? std::string(": left out")
+                                         : text_of(": read %.1f %.1f %.1f mm", tenths_mm(m.moved_m.x),
+                                                   tenths_mm(m.moved_m.y), tenths_mm(m.moved_m.z));
   }
   if (view.facts.smallest_step_m > 0.0 && !text.empty())
-    text += text_of("; smallest step %.4f mm, it says %.4f", 1e3 * view.facts.smallest_step_m,
-                    1e3 * can.position_resolution_m);
+    text += text_of("; smallest step %.0f um, it says %.0f um", 1e6 * view.facts.smallest_step_m,
+                    1e6 * can.position_resolution_m);
   return text;
 }
 
@@ -220,8 +223,8 @@ std::string step_facts_text(BringUpStep step, const BringUpView& view, const For
   switch (step) {
     case BringUpStep::still:
       if (f.rest.ticks == 0) return {};
-      return text_of("noise %.4f %.4f %.4f mm RMS, range %.4f mm, in %.1f s", 1e3 * f.rest.noise_m.x,
-                     1e3 * f.rest.noise_m.y, 1e3 * f.rest.noise_m.z, 1e3 * f.rest.range_m, f.rest.seconds);
+      return text_of("noise %.0f %.0f %.0f um RMS, range %.0f um, in %.1f s", 1e6 * f.rest.noise_m.x,
+                     1e6 * f.rest.noise_m.y, 1e6 * f.rest.noise_m.z, 1e6 * f.rest.range_m, f.rest.seconds);
     case BringUpStep::axes:
       return axes_facts(view, can);
     case BringUpStep::rate:

@@ -3,6 +3,8 @@
 #include "workbench/gui/panels/panels.h"
 #include "workbench/gui/widgets/widgets.h"
 
+#include <algorithm>
+
 namespace tangent {
 namespace {
 
@@ -70,12 +72,17 @@ void draw_stop(const UiContext& ui, BringUpModel& bring_up) {
   ImGui::PopStyleColor(2);
 }
 
+/// No step had to be left out because the device has no such thing.
+bool has_all(const BringUpView& view) {
+  return std::count(view.verdicts.begin(), view.verdicts.end(), StepVerdict::not_proved) == 0;
+}
+
 void draw_question(const UiContext& ui, BringUpModel& bring_up) {
   const BringUpView& view = bring_up.view();
   if (!view.ended) draw_stop(ui, bring_up);
   ImGui::PushFont(ui.fonts.strong);
   if (view.ended)
-    page_text(view.all_proved() ? "All proved." : "Not all proved.",
+    page_text(view.all_proved() ? has_all(view) ? "All proved." : "All that it has was proved." : "Not all proved.",
               view.all_proved() ? ui.colours.good : ui.colours.bad);
   else
     page_text(view.asks() ? question_text(view, bring_up.capabilities()) : std::string(step_title(view.step)) + " ...",
@@ -118,6 +125,7 @@ void draw_bring_up_page(const UiContext& ui, BringUpModel& bring_up) {
     ImGui::TableNextColumn();
     draw_steps(ui, bring_up);
     ImGui::TableNextColumn();
+    if (columns == 1) ImGui::Dummy({1, ui.px(8)});  // what follows is no step
     draw_now(ui, bring_up);
     ImGui::EndTable();
   }
