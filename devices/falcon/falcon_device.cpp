@@ -71,6 +71,7 @@ Status FalconDevice::check_attached() const {
 
 Status FalconDevice::open() {
   if (opened_) return fail("is already open", kFalconName, "close it first");
+  const std::uint32_t stops_before = stops();
   std::vector<std::uint8_t> bytes;
   if (!options_.firmware.empty()) {
     auto firmware = read_falcon_firmware(options_.firmware, options_.firmware_sha256);
@@ -82,6 +83,7 @@ Status FalconDevice::open() {
   {
     const std::lock_guard lock(driver_lock_);
     driver_.swap(driver);
+    if (stops_ != stops_before) driver_->stop();  // one that came meanwhile holds for the new driver, too
   }
   if (const Status started = link_.start(); !started) return started;
   opened_ = true;
@@ -111,9 +113,15 @@ void FalconDevice::on_open(UsbLink& link) noexcept {
   driver_->opened(link.serial(), usb_now_ns());
 }
 
+std::uint32_t FalconDevice::stops() const {
+  const std::lock_guard lock(driver_lock_);
+  return stops_;
+}
+
 bool FalconDevice::emergency_stop() noexcept {
   {
     const std::lock_guard lock(driver_lock_);
+    ++stops_;
     driver_->stop();
   }
   link_.wake();
@@ -154,6 +162,7 @@ std::string FalconDevice::problem() const {
 
 bool FalconDevice::report(LinkReport& out) const {
   const UsbCounters& usb = link_.counters();
+  const std::lock_guard driver_stays(driver_lock_);
   const FalconLine& line = driver_->line();
   out.connected = link_.connected();
   if (out.connected && line.phase() == FalconPhase::running)

@@ -38,17 +38,19 @@ class FalconDevice final : public ForceDevice, private UsbLinkHandler, private F
   bool can_send() const noexcept override { return link_.can_send(); }
 
   Status check_attached() const;
-  std::string problem() const;
+  std::uint32_t stops() const;
+  std::string problem() const;  ///< under driver_lock_
 
   FalconOptions options_;
   ForceCapabilities capabilities_;
   UsbLink link_;
-  std::mutex driver_lock_;                ///< held to replace it, and by an emergency stop
+  mutable std::mutex driver_lock_;        ///< held to replace it, by an emergency stop and by a report
   std::unique_ptr<FalconDriver> driver_;  ///< from the start; a new one with each open
   std::array<std::atomic<std::uint64_t>, 8> last_packet_{};
   std::atomic<std::uint32_t> last_packet_bytes_{0};
   mutable std::mutex serial_lock_;  ///< held for a copy, once a connection
   std::string serial_;              ///< of the one that was connected last
+  std::uint32_t stops_ = 0;         ///< emergency stops, under driver_lock_
   bool opened_ = false;
 };
 

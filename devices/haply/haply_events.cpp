@@ -5,7 +5,10 @@ namespace tangent {
 Status HaplyEvents::start(const HaplyLinkOptions& where, const std::string& device) {
   stop();
   device_ = device;
-  newest_.clear();
+  {
+    const std::lock_guard lock(mutex_);
+    newest_.clear();
+  }
   return link_.start(where);
 }
 

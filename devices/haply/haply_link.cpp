@@ -11,6 +11,7 @@
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/websocket.hpp>
 
+#include <fcntl.h>
 #include <sys/eventfd.h>
 #include <unistd.h>
 
@@ -68,7 +69,6 @@ struct HaplyLink::Impl {
   ConnectionPtr now;
   std::thread thread;
   std::atomic<bool> stopping{false}, anew{false};
-  std::atomic<int> bell_fd{-1};
 
   void run() noexcept;
   void connect();
@@ -253,19 +253,23 @@ void HaplyLink::Impl::run() noexcept {
   }
 }
 
-HaplyLink::HaplyLink(HaplyLinkHandler& handler) : impl_(std::make_unique<Impl>(handler)) {}
-HaplyLink::~HaplyLink() { stop(); }
+HaplyLink::HaplyLink(HaplyLinkHandler& handler)
+    : bell_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)), impl_(std::make_unique<Impl>(handler)) {}
+
+HaplyLink::~HaplyLink() {
+  stop();
+  if (bell_ >= 0) ::close(bell_);
+}
 
 Status HaplyLink::start(const HaplyLinkOptions& options) {
   if (impl_->thread.joinable()) return {};
   HaplyLinkHandler& handler = impl_->handler;
   impl_ = std::make_unique<Impl>(handler);
   impl_->options = options;
-  const int fd = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+  const int fd = bell_ < 0 ? -1 : ::fcntl(bell_, F_DUPFD_CLOEXEC, 0);
   if (fd < 0)
     return fail("no event descriptor could be made", "Haply Inverse3", "close programs, or raise `ulimit -n`");
   impl_->bell.assign(fd);
-  impl_->bell_fd = fd;
   try {
     impl_->thread = std::thread([impl = impl_.get()] { impl->run(); });
   } catch (const std::system_error&) {
@@ -279,15 +283,12 @@ void HaplyLink::stop() {
   impl_->stopping = true;
   wake();
   impl_->thread.join();
-  impl_->bell_fd = -1;
 }
 
 void HaplyLink::wake() noexcept {
-  const int fd = impl_->bell_fd.load(std::memory_order_relaxed);
-  if (fd < 0) return;
   const std::uint64_t one = 1;
   // Full, it rings anyway.
-  [[maybe_unused]] const auto written = ::write(fd, &one, sizeof one);
+  [[maybe_unused]] const auto written = ::write(bell_, &one, sizeof one);
 }
 
 void HaplyLink::reconnect() noexcept {

@@ -50,14 +50,17 @@ class HaplyLink {
   Status start(const HaplyLinkOptions& options);
   /// Sends the last message, closes and joins the thread, within 0.5 s. Harmless when not started.
   void stop();
-  /// Any thread, without waiting: next() is asked soon.
+  /// Any thread, also while it is started or stopped, without waiting: next() is asked soon.
   void wake() noexcept;
-  /// Any thread, without waiting: sends the last message, closes, connects again.
+  /// Any thread while it runs, without waiting: sends the last message, closes, connects again.
   void reconnect() noexcept;
 
   struct Impl;
 
  private:
+  // As long as the link, not as its thread: who wakes it while it is started or stopped must not write to a descriptor
+  // that was closed, and is perhaps another file by now.
+  const int bell_;
   std::unique_ptr<Impl> impl_;
 };
 

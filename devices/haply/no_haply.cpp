@@ -7,7 +7,7 @@ namespace tangent {
 struct HaplyLink::Impl {};
 
 bool haply_built_in() { return false; }
-HaplyLink::HaplyLink(HaplyLinkHandler&) {}
+HaplyLink::HaplyLink(HaplyLinkHandler&) : bell_(-1) {}
 HaplyLink::~HaplyLink() = default;
 Status HaplyLink::start(const HaplyLinkOptions&) {
   return tl::unexpected(haply_error(HaplyProblem::not_built_in, "Haply Inverse3"));

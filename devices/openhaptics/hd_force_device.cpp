@@ -111,7 +111,7 @@ ForceSample HdForceDevice::frame(const ForceCommand& command) noexcept {
   if (clean_frames_ >= kCleanFrames && machine_.state() != DeviceState::faulted)
     if (const DeviceFault fault = judge(reading); fault != DeviceFault::none) machine_.fail(fault);
   if (machine_.ready() && !is_finite(command.force_n)) machine_.fail(DeviceFault::bad_command);
-  if (machine_.ready()) sample.force_n = command.force_n;
+  if (machine_.ready() && !emergency_.load(kRelaxedHd)) sample.force_n = command.force_n;  // the keeper may be late
   const double force[3] = {sample.force_n.x, sample.force_n.y, sample.force_n.z};
   api_.set_doublev(hd::kForce, force);
   if (code == hd::kSuccess && !was_faulted) go_on();

@@ -519,6 +519,25 @@ TEST_CASE("an emergency stop reaches the Inverse Service without an exchange, an
   CHECK(rig.arm_and_push());
 }
 
+TEST_CASE("an Inverse3 may be told to stop by another thread while it is opened and closed") {
+  HaplyService service;
+  HaplyRig rig(service);
+  std::atomic<bool> going{true};
+  std::atomic<int> calls{0};
+  std::thread other([&] {
+    for (; going; ++calls) rig.device.emergency_stop();
+  });
+  for (int round = 0; round < 3; ++round) {
+    const int before = calls;
+    CHECK(eventually([&] { return calls > before + 10; }));
+    CHECK(rig.device.open());
+    rig.device.close();
+  }
+  going = false;
+  other.join();
+  CHECK(rig.push());  // and works afterwards
+}
+
 TEST_CASE("when our ticks stall, the link's thread sends the Inverse Service zero force") {
   HaplyService service;
   HaplyOptions options = stepped_haply(service);

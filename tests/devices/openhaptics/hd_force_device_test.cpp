@@ -201,6 +201,16 @@ TEST_CASE("openhaptics: an emergency disables the force and stops the scheduler,
   CHECK(l.felt_n() == 0.0);
 }
 
+TEST_CASE("openhaptics: after an emergency the very next frame has no force, however late its keeper is") {
+  HdLoop l;
+  REQUIRE(l.start());
+  l.push();
+  REQUIRE(l.felt_n() > 0.4);
+  CHECK(l.device.emergency_stop());
+  l.step();
+  CHECK((l.felt_n() == 0.0 || happened_in_order(l.hd.log(), {"force", "disable force"})));  // unless it was first
+}
+
 TEST_CASE("openhaptics: a call that comes after calling was stopped is no tick, and sends no force") {
   HdLoop l;
   l.hd.calls_late = true;

@@ -218,6 +218,48 @@ TEST_CASE("Falcon on USB: told to stop by another thread while it is closed, it 
   }
 }
 
+TEST_CASE("Falcon on USB: told to stop while it is being opened, it stays stopped until a person clears that") {
+  FalconBench b;
+  b.device.plug_in();
+  b.device.run();
+  int stops = 0;
+  b.model.when_asked_for_serial = [&] {  // by open, before it has a driver for what is plugged in
+    if (stops++ == 0) CHECK(b.falcon.emergency_stop());
+  };
+  REQUIRE(b.falcon.open());
+  REQUIRE(stops > 0);
+  REQUIRE(b.reach(DeviceState::faulted));
+  CHECK(b.sample.fault == DeviceFault::watchdog);
+  for (int i = 0; i < 20; ++i) CHECK(b.exchange({0.0, 0.0, 1.0}).state == DeviceState::faulted);
+  CHECK_FALSE(b.is_pushed());
+  b.exchange(Vec3(0.0), DeviceRequest::clear_fault);
+  b.make_ready();
+}
+
+TEST_CASE("Falcon on USB: other threads may stop it and ask about it while it is opened") {
+  FalconBench b;
+  b.device.plug_in();
+  b.device.run();
+  std::atomic<bool> going{false}, opened{false};
+  std::thread other;
+  b.model.when_asked_for_serial = [&] {  // open is under way
+    if (going.exchange(true)) return;
+    other = std::thread([&] {
+      LinkReport r;
+      while (!opened) CHECK((b.falcon.emergency_stop() && b.falcon.report(r)));
+    });
+  };
+  for (int round = 0; round < 3; ++round) {
+    going = opened = false;
+    REQUIRE(b.falcon.open());
+    opened = true;
+    REQUIRE(going);
+    other.join();
+    CHECK(b.reach(DeviceState::faulted));
+    b.falcon.close();
+  }
+}
+
 TEST_CASE("Falcon on USB: stalls, bus errors and time-outs are survived") {
   // A lost answer has to be given up for the next command to go: here after 50 ms.
   FalconOptions options = FalconBench::patient();

@@ -36,6 +36,7 @@ bool FalconModel::on_control(const ControlSetup& s, Bytes& answer) {
   if (s.request_type == 0x80 && s.request == 6 && s.value >> 8 == 3 && !serial.empty()) {
     if ((s.value & 0xffu) == 0) answer = {4, 3, 0x09, 0x04};  // in English
     if ((s.value & 0xffu) == kSerialString) {
+      if (when_asked_for_serial) when_asked_for_serial();
       answer = {static_cast<std::uint8_t>(2 + 2 * serial.size()), 3};
       for (const char letter : serial) answer.insert(answer.end(), {static_cast<std::uint8_t>(letter), 0});
     }

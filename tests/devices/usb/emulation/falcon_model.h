@@ -8,6 +8,7 @@
 #include "devices/falcon/falcon_kinematics.h"
 #include "tests/devices/usb/emulation/usb_model.h"
 
+#include <functional>
 #include <string>
 
 namespace tangent::emulation {
@@ -39,6 +40,7 @@ class FalconModel final : public UsbModel {
   double counts_per_nm = 10'000.0;  ///< its true torque scale
   double mass_kg = 0.2, hand_n_per_m = 2000.0, hand_n_s_per_m = 20.0;
   Vec3 hand_m = kFalconCentre_m;  ///< where the hand holds it
+  std::function<void()> when_asked_for_serial;
 
   // What happened.
   std::uint64_t commands = 0, bad_commands = 0, uploads = 0, pushed_unhomed = 0;
