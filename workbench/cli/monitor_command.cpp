@@ -117,8 +117,8 @@ class LinkWatch {
     bool missed() const { return sought && !came; }
   };
   static Status missing(const std::string& option, const Link& link) {
-    return fail("was not there at any time" + (link.problem.empty() ? link.problem : ": " + link.problem), option,
-                "plug it in, and see workbench devices");
+    if (link.problem.empty()) return fail("was not there at any time", option, "plug it in, and see workbench devices");
+    return fail("was not there at any time: " + link.problem, option, "see workbench devices");  // it says what to do
   }
 
   Link force_, display_;

@@ -2,7 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <string>
 #include <thread>
 
 using namespace tangent::testing;
@@ -76,6 +78,14 @@ TEST_CASE("monitor places the scene as asked, and refuses what can't be") {
     CHECK(r.exit_code == 2);
     CHECK(has(r.err, "--place-"));
   }
+}
+
+TEST_CASE("monitor says once what to do about a device that was never there") {
+  const ProcessResult r = run_workbench({"monitor", "--seconds", "0.2", "--device", "cld"});
+  CHECK(r.exit_code == 1);
+  const std::string said = r.err.substr(std::min(r.err.size(), r.err.find("was not there at any time")));
+  CHECK(has(said, "see workbench devices"));
+  CHECK(said.find("plug it in") == said.rfind("plug it in"));
 }
 
 TEST_CASE("monitor refuses unknown faults and devices, naming the choices") {
