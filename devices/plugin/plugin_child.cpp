@@ -157,6 +157,8 @@ void PluginChild::kill() noexcept {
   id_ = 0;
 }
 
+bool PluginChild::died_of(int signal) const { return WIFSIGNALED(status_) && WTERMSIG(status_) == signal; }
+
 std::string PluginChild::death() const {
   if (WIFSIGNALED(status_)) {
     const int signal = WTERMSIG(status_);

@@ -47,6 +47,8 @@ class PluginChild {
   void kill() noexcept;
   /// "ended by signal 6 (Aborted)"; after it died.
   std::string death() const;
+  /// It ended by this signal.
+  bool died_of(int signal) const;
 
  private:
   void reap() noexcept;

@@ -22,6 +22,7 @@ struct PluginOptions {
   double end_s = 1.0;        ///< closing takes no longer; then its process is killed
   double restart_s = 0.5;    ///< from the end of its process to the next; twice that after every failure, 5 s at most
   bool realtime = true;      ///< its process asks for SCHED_FIFO
+  double memory_mb = 512.0;  ///< that its process may take beyond what it begins with; 0: no limit
 };
 
 }  // namespace tangent

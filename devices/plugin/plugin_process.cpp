@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <system_error>
 
@@ -24,19 +25,39 @@ std::string seconds_text(double seconds) {
   return text;
 }
 
-Error why_it_died(const PluginChild& child, const PluginRegion& region, const PluginOptions& options) {
-  const HostPlace place = region.to_program().place.load();
-  return {"its process " + child.death() + ", " + to_string(place), options.path.string(),
-          place == HostPlace::own ? "look at what it printed, and at the memory of the machine"
-                                  : "run workbench-plugin in a debugger, or mend the plug-in there"};
+/// Where its process was refused memory: that, and what to do.
+std::string refused_what(const PluginOptions& options) {
+  char text[96];
+  std::snprintf(text, sizeof text, "after it got no more memory than its %g MB", options.memory_mb);
+  return text;
+}
+constexpr const char* kRefusedRemedy =
+    "mend the plug-in where it allocates without end, or let it have more: --plugin-memory-mb MB";
+
+bool was_refused(const PluginRegion& region, const PluginOptions& options) {
+  return options.memory_mb > 0.0 && region.to_program().refused.load() != 0;
 }
 
-Error why_it_failed(const PluginRegion& region) {
+const char* remedy_of_death(const PluginChild& child, HostPlace place) {
+  if (child.died_of(SIGXCPU)) return "exchange must not loop until something happens: return, and look again next time";
+  return place == HostPlace::own ? "look at what it printed, and at the memory of the machine"
+                                 : "run workbench-plugin in a debugger, or mend the plug-in there";
+}
+
+Error why_it_died(const PluginChild& child, const PluginRegion& region, const PluginOptions& options) {
+  const HostPlace place = region.to_program().place.load();
+  const std::string how = "its process " + child.death() + ", " + to_string(place);
+  if (was_refused(region, options)) return {how + ", " + refused_what(options), options.path.string(), kRefusedRemedy};
+  return {how, options.path.string(), remedy_of_death(child, place)};
+}
+
+Error why_it_failed(const PluginRegion& region, const PluginOptions& options) {
   PluginText what, remedy;
   std::uint32_t first = 0, second = 0;
   region.to_program().what.take(what, first);
   region.to_program().remedy.take(remedy, second);
-  return {std::string(what.view()), {}, std::string(remedy.view())};
+  if (!was_refused(region, options)) return {std::string(what.view()), {}, std::string(remedy.view())};
+  return {std::string(what.view()) + ", " + refused_what(options), {}, kRefusedRemedy};
 }
 
 /// Until it has come as far as `wanted`.
@@ -45,7 +66,7 @@ Status await(PluginChild& child, const PluginRegion& region, HostPhase wanted, c
   const std::int64_t until_ns = plugin_now_ns() + nanoseconds(options.open_s);
   for (bool died = false;;) {
     const HostPhase phase = region.to_program().phase.load(std::memory_order_acquire);
-    if (phase == HostPhase::failed) return tl::unexpected(why_it_failed(region));
+    if (phase == HostPhase::failed) return tl::unexpected(why_it_failed(region, options));
     if (phase == wanted) return {};
     if (died) return tl::unexpected(why_it_died(child, region, options));
     const std::int64_t left_ns = until_ns - plugin_now_ns();
@@ -75,6 +96,7 @@ Status prepare(PluginRegion& region, const PluginOptions& options) {
   to_host.watchdog_s = options.watchdog_s;
   to_host.hang_s = options.hang_s;
   to_host.end_s = options.end_s;
+  to_host.memory_bytes = static_cast<std::uint64_t>(1e6 * std::max(0.0, options.memory_mb));
   return {};
 }
 
@@ -154,6 +176,7 @@ void PluginProcess::opened(Status status) {
 Status PluginProcess::start_one(PluginChild& child) {
   region_.to_program().phase.store(HostPhase::starting);
   region_.to_program().place.store(HostPlace::own);
+  region_.to_program().refused.store(0);
   region_.to_host().end.store(0);
   region_.to_host().connection.store(connection_.load() + 1);  // as watch_one counts
   if (const Status ok = child.start(options_, region_, "run"); !ok) return ok;
@@ -273,7 +296,9 @@ void PluginProcess::report(LinkReport& out) const {
     std::uint32_t none = 0;
     if (region_.to_program().what.take(said, none)) out.problem += ": " + std::string(said.view());
   }
-  out.problem += std::string("; ") + remedy(verdict);
+  const bool refused = was_refused(region_, options_);
+  if (refused) out.problem += ", " + refused_what(options_);
+  out.problem += std::string("; ") + (refused ? kRefusedRemedy : remedy(verdict));
 }
 
 }  // namespace tangent

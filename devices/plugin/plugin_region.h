@@ -12,7 +12,7 @@
 namespace tangent {
 
 inline constexpr std::size_t kRegionPage = 4096;
-inline constexpr std::uint32_t kRegionMark = 0x74616e32;  ///< of this layout; program and host are built together
+inline constexpr std::uint32_t kRegionMark = 0x74616e33;  ///< of this layout; program and host are built together
 inline constexpr int kRegionDescriptor = 3, kLifeDescriptor = 4;  ///< of the plug-in's process
 
 /// How far the plug-in's process is.
@@ -26,6 +26,7 @@ struct alignas(kRegionPage) ToHost {
   std::uint32_t realtime = 0;
   std::int64_t program = 0;  ///< its process id
   double watchdog_s = 0.0, hang_s = 0.0, end_s = 0.0;
+  std::uint64_t memory_bytes = 0;            ///< process_limits.h
   std::atomic<std::uint32_t> bell{0};        ///< rung for each command, and for the end
   std::atomic<std::uint32_t> end{0};         ///< not 0: close the device and end
   std::atomic<std::uint32_t> connection{0};  ///< PluginCommand::connection of this process
@@ -37,6 +38,7 @@ struct alignas(kRegionPage) ToProgram {
   std::atomic<std::uint32_t> bell{0};  ///< rung for each answer; by the program, too, when the process has died
   std::atomic<HostPhase> phase{HostPhase::starting};
   std::atomic<HostPlace> place{HostPlace::own};
+  std::atomic<std::uint32_t> refused{0};  ///< allocations that got no memory
   SharedSlot<tangent_device_capabilities> capabilities;
   SharedSlot<PluginAnswer> answer;
   SharedSlot<PluginText> what, remedy;  ///< of HostPhase::failed, and of a verdict

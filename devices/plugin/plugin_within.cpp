@@ -31,6 +31,7 @@ Status PluginWithin::open(const tangent_device_capabilities& as_said) {
 }
 
 void PluginWithin::close() {
+  const std::lock_guard lock(stop_lock_);  // after a stop that goes on
   open_.store(false);
   library_.reset();
 }
@@ -56,6 +57,7 @@ PluginTurn PluginWithin::exchange(const PluginCommand& command, double) noexcept
 
 // Past the servo's thread, which may be held in exchange: by the plug-in's own stop, from this thread.
 bool PluginWithin::emergency_stop() noexcept {
+  const std::lock_guard lock(stop_lock_);
   if (!open_.load()) return false;
   PluginVerdict none = PluginVerdict::none;
   verdict_.compare_exchange_strong(none, PluginVerdict::stopped);

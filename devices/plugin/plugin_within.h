@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <string>
 
 namespace tangent {
@@ -26,6 +27,7 @@ class PluginWithin final : public PluginLine {
 
  private:
   PluginOptions options_;
+  std::mutex stop_lock_;  ///< held by an emergency stop, and to take the library away
   std::unique_ptr<PluginLibrary> library_;
   std::atomic<bool> open_{false};
   std::atomic<std::uint32_t> connection_{0};

@@ -21,6 +21,9 @@ void add_plugin_options(CLI::App& command, PluginOptions& plugin) {
                   "PATH.so");
   add_flag(command, "--plugin-in-process", plugin.in_process,
            "Load it into this program instead of a process of its own: its crash is then this program's");
+  add_number_option(command, "--plugin-memory-mb", {.min = 0, .max = 1e6, .unit = "MB"},
+                    "Memory that the plug-in's process may take; then it gets none (default 512; 0: no limit)",
+                    [&plugin](double v) { plugin.memory_mb = v; });
   add_repeated_option(command, "--plugin-setting",
                       "A setting for the plug-in, which says what it knows; may be repeated", "KEY=VALUE",
                       [&plugin](const std::vector<std::string>& given) {

@@ -9,8 +9,17 @@ namespace {
 thread_local bool counting = false;
 thread_local std::uint64_t allocations = 0;
 
+std::atomic<std::atomic<std::uint32_t>*> refusals{nullptr};
+
 void note() noexcept {
   if (counting) ++allocations;
+}
+
+[[maybe_unused]] void* got(void* memory, std::size_t bytes) noexcept {
+  if (memory != nullptr || bytes == 0) return memory;
+  if (std::atomic<std::uint32_t>* here = refusals.load(std::memory_order_acquire); here != nullptr)
+    here->fetch_add(1, std::memory_order_relaxed);
+  return nullptr;
 }
 
 }  // namespace
@@ -38,27 +47,27 @@ void* __libc_memalign(std::size_t, std::size_t);
 
 void* malloc(std::size_t size) {
   note();
-  return __libc_malloc(size);
+  return got(__libc_malloc(size), size);
 }
 void* calloc(std::size_t count, std::size_t size) {
   note();
-  return __libc_calloc(count, size);
+  return got(__libc_calloc(count, size), count == 0 ? 0 : size);
 }
 void* realloc(void* memory, std::size_t size) {
   note();
-  return __libc_realloc(memory, size);
+  return got(__libc_realloc(memory, size), size);
 }
 void* memalign(std::size_t alignment, std::size_t size) {
   note();
-  return __libc_memalign(alignment, size);
+  return got(__libc_memalign(alignment, size), size);
 }
 void* aligned_alloc(std::size_t alignment, std::size_t size) {
   note();
-  return __libc_memalign(alignment, size);
+  return got(__libc_memalign(alignment, size), size);
 }
 int posix_memalign(void** memory, std::size_t alignment, std::size_t size) {
   note();
-  *memory = __libc_memalign(alignment, size);
+  *memory = got(__libc_memalign(alignment, size), size);
   return *memory == nullptr ? ENOMEM : 0;
 }
 }
@@ -76,5 +85,7 @@ std::uint64_t counted_allocations() noexcept {
   counting = false;
   return allocations;
 }
+
+void count_refusals(std::atomic<std::uint32_t>& here) noexcept { refusals.store(&here, std::memory_order_release); }
 
 }  // namespace tangent

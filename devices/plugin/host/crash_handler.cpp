@@ -28,7 +28,7 @@ void stop_in_a_crash(PluginLibrary& library) {
   static unsigned char* const stack = static_cast<unsigned char*>(std::malloc(kStackBytes));
   const stack_t alternate{.ss_sp = stack, .ss_flags = 0, .ss_size = kStackBytes};
   if (stack != nullptr) sigaltstack(&alternate, nullptr);
-  for (const int signal : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGSYS, SIGTRAP}) {
+  for (const int signal : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGSYS, SIGTRAP, SIGXCPU}) {
     struct sigaction before {
     }, mine{};
     mine.sa_handler = stop_and_die;

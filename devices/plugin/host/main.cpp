@@ -5,11 +5,14 @@
 //
 // The pipe says that there is something to see, and, by its end, that this process is gone.
 #include "devices/base/realtime_thread.h"
+#include "devices/plugin/host/allocation_watch.h"
 #include "devices/plugin/host/crash_handler.h"
 #include "devices/plugin/host/plugin_host.h"
+#include "devices/plugin/host/process_limits.h"
 
 #include <fcntl.h>
 #include <pthread.h>
+#include <sched.h>
 #include <sys/prctl.h>
 #include <unistd.h>
 
@@ -19,6 +22,8 @@
 
 namespace tangent {
 namespace {
+
+constexpr double kLongestLoop = 5.0;  // in terms of hang_s, after which the second thread stops the device
 
 void tell(PluginRegion& region, HostPhase phase) {
   region.to_program().phase.store(phase, std::memory_order_release);
@@ -59,8 +64,11 @@ int run(PluginRegion& region, PluginLibrary& library) {
   if (const Status ok = library.open(); !ok) return say_failed(region, ok.error());
   place.store(HostPlace::own);
   stop_in_a_crash(library);
+  limit_realtime(kLongestLoop * region.to_host().hang_s);
   if (region.to_host().realtime != 0) ask_for_realtime(kServoPriority);  // without it it answers with more jitter
   host.serve();
+  constexpr sched_param kNone{};
+  ::sched_setscheduler(0, SCHED_OTHER, &kNone);                           // closing may take its time
   ::alarm(static_cast<unsigned>(PluginHost::longest_end_s(region)) + 3);  // nobody else would, with the program gone
   place.store(HostPlace::close);
   library.close();
@@ -82,6 +90,9 @@ int host_main(int argc, char** argv) {
   for (const int mine : {kRegionDescriptor, kLifeDescriptor}) ::fcntl(mine, F_SETFD, FD_CLOEXEC);
   prepare_signals();
   if (::getppid() != region.to_host().program) return 1;  // died before the line above
+  count_refusals(region.to_program().refused);
+  if (!limit_memory(region.to_host().memory_bytes))
+    std::fputs("workbench-plugin: the memory of the plug-in can't be limited\n", stderr);
   std::atomic<HostPlace>& place = region.to_program().place;
   place.store(HostPlace::loading);
   auto library = PluginLibrary::load(argv[2], settings_of(argc, argv));

@@ -2,8 +2,14 @@
 
 #include <doctest/doctest.h>
 
+#include "devices/simulated/simulated_force_device.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <random>
+#include <vector>
 
 using namespace tangent;
 
@@ -37,7 +43,86 @@ double leap_found(const Telemetry& telemetry, double servo_hz) {
   return -1.0;
 }
 
+/// How long readings stay exactly the same right after a motion that the watch for frozen ones takes for one.
+struct StillRuns {
+  static constexpr std::array<int, 5> kAtLeast{3, 5, 10, 15, 20};
+  std::array<int, 5> runs{};
+  int longest = 0;
+
+  void add(const Vec3& position_m) {
+    const bool moved = !past.empty() && position_m != past.back();
+    if (moved || past.size() < FrozenPositionWatch::kReadings) {
+      end();
+    } else if (++still == 1) {
+      const auto count = std::count(moves.begin(), moves.end(), true);
+      was_moving = count >= static_cast<long>(FrozenPositionWatch::kMovingReadings) &&
+                   glm::length(past.back() - past.front()) >= FrozenPositionWatch::kMoved_m;
+    }
+    past.push_back(position_m);
+    moves.push_back(moved);
+    if (past.size() > FrozenPositionWatch::kReadings) past.erase(past.begin()), moves.erase(moves.begin());
+  }
+  void end() {
+    for (std::size_t i = 0; i < runs.size(); ++i) runs[i] += was_moving && still >= kAtLeast[i];
+    if (was_moving) longest = std::max(longest, still);
+    still = 0;
+    was_moving = false;
+  }
+
+ private:
+  std::vector<Vec3> past;
+  std::vector<bool> moves;
+  int still = 0;
+  bool was_moving = false;
+};
+
+/// A simulated hand strokes to places at random, in 0.1 to 0.5 s each as hands do (least jerk), and rests between;
+/// along x there may be a wall in its way, `wall_n_per_m` stiff.
+StillRuns still_runs(double step_m, double wall_n_per_m, std::uint64_t seed, int strokes) {
+  SimulatedForceOptions options;
+  options.seed = seed;
+  options.position_step_m = step_m;
+  options.friction_n = 0.0;
+  SimulatedForceDevice device(options);
+  if (!device.open()) return {};
+  ForceSample sample = device.exchange({.request = DeviceRequest::home}, 1e-3);
+  for (int i = 0; i < 200; ++i) sample = device.exchange({}, 1e-3);
+  std::mt19937_64 random(seed);
+  const auto any = [&](double from, double to) { return from + (to - from) * 0x1p-64 * static_cast<double>(random()); };
+  StillRuns seen;
+  Vec3 from(0.0);
+  for (int stroke = 0; stroke < strokes; ++stroke) {
+    const Vec3 to(any(-0.05, 0.05), any(-0.05, 0.05), any(-0.05, 0.05));
+    const double takes_s = any(0.1, 0.5), rests_s = any(0.0, 0.3);
+    for (double t = 0.0; t < takes_s + rests_s; t += 1e-3) {
+      const double u = std::min(1.0, t / takes_s);
+      const double way = u * u * u * (10.0 + u * (6.0 * u - 15.0)),
+                   speed = 30.0 * u * u * (1.0 - u) * (1.0 - u) / takes_s;
+      device.lead({.position_m = from + way * (to - from), .velocity_m_per_s = speed * (to - from)});
+      const double force = std::clamp(-wall_n_per_m * sample.position_m.x, 0.0, 8.0);
+      sample = device.exchange({.force_n = Vec3(force, 0.0, 0.0)}, 1e-3);
+      seen.add(sample.position_m);
+    }
+    from = to;
+  }
+  seen.end();
+  return seen;
+}
+
 }  // namespace
+
+TEST_CASE("measure: how long a healthy device reads the same in the middle of a motion" * doctest::skip()) {
+  constexpr int kStrokes = 2000;
+  std::puts("| encoder steps | wall | 3 or more | 5 | 10 | 15 | 20 | longest |");
+  for (const double step_m : {30e-6, 63.5e-6}) {
+    for (const double wall_n_per_m : {0.0, 1000.0, 3000.0}) {
+      const StillRuns seen = still_runs(step_m, wall_n_per_m, 7, kStrokes);
+      std::printf("| %.1f um | %.0f N/m |", 1e6 * step_m, wall_n_per_m);
+      for (const int runs : seen.runs) std::printf(" %d |", runs);
+      std::printf(" %d |\n", seen.longest);
+    }
+  }
+}
 
 TEST_CASE("motion is judged by the samples' own time: servo rate x telemetry rate x gap x speed") {
   int cases = 0;

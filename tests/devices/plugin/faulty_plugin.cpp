@@ -3,6 +3,7 @@
 //
 //   fault=NAME at=TICK for=TICKS   from that tick of the servo on, for so many ticks
 //   log=FILE                       appends a word for each call but exchange
+//   hoard=MB                       allocates so much in open
 #include "devices/plugin/tangent_device.h"
 
 #include <dlfcn.h>
@@ -16,6 +17,7 @@
 #include <cstring>
 #include <limits>
 #include <string>
+#include <thread>
 
 namespace {
 
@@ -24,6 +26,7 @@ struct Handle {
   std::uint64_t at = 0, lasts = 0;
   double time_s = 0.0;
   std::atomic<int> stops{0};
+  std::atomic<bool> leaks{false};
   std::atomic<bool> faulted{false};
   double force_n[3] = {0.0, 0.0, 0.0};
 
@@ -69,6 +72,35 @@ int say_capabilities(const tangent_device_settings* settings, tangent_device_cap
   return 0;
 }
 
+constexpr std::size_t kPiece = std::size_t{1} << 20;
+
+/// A piece of memory that is used, so that it can't be had for nothing.
+void* volatile last_piece = nullptr;
+bool take_piece() {
+  void* piece = std::malloc(kPiece);
+  if (piece == nullptr) return false;
+  last_piece = std::memset(piece, 1, kPiece);
+  return true;
+}
+
+bool hoard(const tangent_device_settings* settings) {
+  const std::string mb = setting(settings, "hoard");
+  for (unsigned long i = 0; i < std::strtoul(mb.c_str(), nullptr, 10); ++i) {
+    if (take_piece()) continue;
+    failure = "no room for the pictures";
+    return false;
+  }
+  return true;
+}
+
+/// In a thread of its own, which a plug-in may have: from the tick of the fault on, until new throws.
+void leak_later(Handle& handle) {
+  std::thread([&handle] {
+    while (!handle.leaks) ::usleep(1000);
+    for (;;) last_piece = std::memset(new char[kPiece], 1, kPiece);
+  }).detach();
+}
+
 int open_handle(const tangent_device_settings* settings, void** device) {
   const std::string fault = setting(settings, "fault");
   if (fault == "crash in open") std::abort();
@@ -77,14 +109,22 @@ int open_handle(const tangent_device_settings* settings, void** device) {
     return 1;
   }
   while (fault == "open hangs") ::pause();
+  if (!hoard(settings)) return 1;
   auto* handle = new Handle;
   handle->fault = fault;
   handle->log = setting(settings, "log");
   handle->at = std::strtoull(setting(settings, "at").c_str(), nullptr, 10);
   handle->lasts = std::strtoull(setting(settings, "for").c_str(), nullptr, 10);
   handle->note("open ");
+  if (fault == "leaks") leak_later(*handle);
   *device = handle;
   return 0;
+}
+
+void take_all_memory(Handle& handle) {
+  while (take_piece()) {}
+  handle.note((std::to_string(::getpid()) + " ").c_str());
+  if (handle.is("allocates all and does not look")) last_piece = std::memset(std::malloc(kPiece), 1, kPiece);
 }
 
 void go_wrong(Handle& handle, tangent_device_sample* sample) {
@@ -92,6 +132,9 @@ void go_wrong(Handle& handle, tangent_device_sample* sample) {
   if (handle.is("exit")) std::_Exit(3);
   if (handle.is("killed")) ::raise(SIGKILL);
   while (handle.is("hang")) ::pause();
+  while (handle.is("spins")) handle.leaks = true;
+  if (handle.is("leaks")) handle.leaks = true;
+  if (handle.is("allocates all") || handle.is("allocates all and does not look")) take_all_memory(handle);
   if (handle.is("waits for stop")) {
     handle.note("waits ");
     while (handle.stops == 0) ::usleep(1000);
@@ -130,6 +173,10 @@ int exchange_handle(void* device, const tangent_device_command* command, tangent
 
 void stop_handle(void* device) {
   auto& handle = *static_cast<Handle*>(device);
+  if (handle.is("slow stop") && handle.stops == 0) {
+    handle.note("stopping ");
+    ::usleep(200'000);
+  }
   ++handle.stops;
   handle.note("stop ");
 }

@@ -216,6 +216,21 @@ TEST_CASE("a force that was on its way in an emergency stop does not outlast it"
   }
 }
 
+TEST_CASE("a plug-in within the program is not closed while an emergency stop goes on in it") {
+  const TempFolder folder;
+  PluginOptions options = patient_plugin("slow stop", 0);
+  options.settings.emplace_back("log", folder.file("log"));
+  options.in_process = true;
+  PluginForceDevice device(options);
+  REQUIRE(device.open());
+  std::thread emergency([&] { CHECK(device.emergency_stop()); });
+  CHECK(in_the_end([&] { return read_text(folder.file("log")) == "open stopping "; }));
+  device.close();
+  emergency.join();
+  CHECK(read_text(folder.file("log")) == "open stopping stop stop close ");
+  CHECK_FALSE(device.emergency_stop());
+}
+
 TEST_CASE("a force that was worked out for a plug-in before this one is not passed on") {
   PluginProcess line(patient_plugin());
   const auto can = line.describe();

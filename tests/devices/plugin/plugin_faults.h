@@ -5,6 +5,7 @@
 
 #include <array>
 #include <memory>
+#include <string_view>
 
 namespace tangent::testing {
 
@@ -14,6 +15,14 @@ struct PluginFault {
   DeviceFault as;       ///< of the driver; none: the plug-in's own word, or the gate's fault
   bool waited_for = true;
 };
+
+// A sanitizer's malloc ends the process where it gets no memory.
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+inline constexpr bool kOutOfMemoryKills = true;
+#else
+inline constexpr bool kOutOfMemoryKills = false;
+#endif
+inline constexpr double kTestMemory_mb = 64.0;
 
 // A hang never answers: it is not waited for. Neither is one of the crashes, as with a servo that waits 0.1 ms.
 inline constexpr std::array kPluginFaults{
@@ -33,6 +42,9 @@ inline constexpr std::array kPluginFaults{
     PluginFault{"age negative", "negative age", DeviceFault::firmware},
     PluginFault{"no such state", "no such state", DeviceFault::firmware},
     PluginFault{"allocates in exchange", "allocates", DeviceFault::firmware},
+    PluginFault{"allocates until it gets no more", "allocates all",
+                kOutOfMemoryKills ? DeviceFault::disconnected : DeviceFault::firmware},
+    PluginFault{"the same, and crashes by it", "allocates all and does not look", DeviceFault::disconnected},
 };
 
 struct FaultTicks {
@@ -56,6 +68,7 @@ inline FaultTicks count_fault_ticks(PluginBench& bench) {
 inline std::unique_ptr<PluginBench> bench_with(const PluginFault& fault) {
   constexpr std::uint64_t kAt = 200;
   PluginOptions options = patient_plugin(fault.setting, kAt);
+  if (std::string_view(fault.setting).starts_with("allocates all")) options.memory_mb = kTestMemory_mb;
   if (!fault.waited_for) options.end_s = 0.0;  // what hangs is not waited for at the end either
   auto bench = std::make_unique<PluginBench>(std::move(options));
   bench->arm();
