@@ -16,11 +16,11 @@ struct PluginFault {
   bool waited_for = true;
 };
 
-// A sanitizer's malloc ends the process where it gets no memory.
+// A sanitizer needs memory itself to say that there is none, and hangs.
 #if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
-inline constexpr bool kOutOfMemoryKills = true;
+inline constexpr bool kMemoryCanEnd = false;
 #else
-inline constexpr bool kOutOfMemoryKills = false;
+inline constexpr bool kMemoryCanEnd = true;
 #endif
 inline constexpr double kTestMemory_mb = 64.0;
 
@@ -42,10 +42,14 @@ inline constexpr std::array kPluginFaults{
     PluginFault{"age negative", "negative age", DeviceFault::firmware},
     PluginFault{"no such state", "no such state", DeviceFault::firmware},
     PluginFault{"allocates in exchange", "allocates", DeviceFault::firmware},
-    PluginFault{"allocates until it gets no more", "allocates all",
-                kOutOfMemoryKills ? DeviceFault::disconnected : DeviceFault::firmware},
+    PluginFault{"allocates until it gets no more", "allocates all", DeviceFault::firmware},
     PluginFault{"the same, and crashes by it", "allocates all and does not look", DeviceFault::disconnected},
 };
+
+inline bool takes_all_memory(const PluginFault& fault) {
+  return std::string_view(fault.setting).starts_with("allocates all");
+}
+inline bool can_be_tried(const PluginFault& fault) { return kMemoryCanEnd || !takes_all_memory(fault); }
 
 struct FaultTicks {
   int to_notice = 0;      ///< exchanges from the first with the fault on, until device or gate are stopped
@@ -68,7 +72,7 @@ inline FaultTicks count_fault_ticks(PluginBench& bench) {
 inline std::unique_ptr<PluginBench> bench_with(const PluginFault& fault) {
   constexpr std::uint64_t kAt = 200;
   PluginOptions options = patient_plugin(fault.setting, kAt);
-  if (std::string_view(fault.setting).starts_with("allocates all")) options.memory_mb = kTestMemory_mb;
+  if (takes_all_memory(fault)) options.memory_mb = kTestMemory_mb;
   if (!fault.waited_for) options.end_s = 0.0;  // what hangs is not waited for at the end either
   auto bench = std::make_unique<PluginBench>(std::move(options));
   bench->arm();

@@ -222,7 +222,7 @@ TEST_CASE("Falcon on USB: told to stop while it is being opened, it stays stoppe
   FalconBench b;
   b.device.plug_in();
   b.device.run();
-  int stops = 0;
+  std::atomic<int> stops{0};
   b.model.when_asked_for_serial = [&] {  // by open, before it has a driver for what is plugged in
     if (stops++ == 0) CHECK(b.falcon.emergency_stop());
   };
