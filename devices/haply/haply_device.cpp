@@ -85,7 +85,7 @@ Status HaplyForceDevice::open() {
   if (capabilities_.serial != id_) capabilities_.serial = id_;
   capabilities_.senses_rotation.fill(grip_used_);
   listen_for_events(*address);
-  opened_ = true;
+  opened_.store(true, std::memory_order_release);
   return {};
 }
 
@@ -394,7 +394,9 @@ std::string HaplyForceDevice::details() const {
 bool HaplyForceDevice::report(LinkReport& out) const {
   out.connected = connection_.load(kLax) % 2 == 1;
   const HaplyProblem listing = listing_.load(kLax), fault = fault_by_.load(kLax);
-  if (out.connected && listing == HaplyProblem::none) out.identity = "device " + capabilities_.serial + details();
+  // Its serial number is written while it is opened.
+  if (out.connected && listing == HaplyProblem::none && opened_.load(std::memory_order_acquire))
+    out.identity = "device " + capabilities_.serial + details();
   const HaplyProblem problem = !out.connected ? closed_by_.load(kLax) : listing != HaplyProblem::none ? listing : fault;
   const std::string detail = problem == HaplyProblem::alarm ? events_.newest() : std::string();
   if (problem != HaplyProblem::none) out.problem = haply_error(problem, capabilities_.name, detail).message();

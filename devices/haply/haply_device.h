@@ -124,7 +124,8 @@ class HaplyForceDevice final : public ForceDevice, private HaplyLinkHandler {
   std::int64_t order_at_ns_ = 0, sent_at_ns_ = 0;
 
   // Servo thread.
-  bool opened_ = false, fresh_ = false;
+  std::atomic<bool> opened_{false};  ///< report reads it in another thread
+  bool fresh_ = false;
   DeviceStateMachine machine_;
   Heard newest_;
   std::uint32_t seen_connection_ = 0, seen_bad_ = 0, seen_stops_ = 0, seen_alarms_ = 0;

@@ -148,7 +148,7 @@ void draw_calibration_now(const UiContext& ui, const CalibrationModel& calibrati
   const std::string serial = calibration.serial();
   fact(ui, can.name.c_str(), serial.empty() ? "no serial number" : serial);
   fact(ui, "State", to_string(view.device));
-  const Vec3 p = 1e3 * view.position_m;
+  const Vec3 p = 0.1 * glm::round(1e4 * view.position_m) + Vec3(0.0);  // never "-0.0"
   const bool in_middle = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= 1e3 * ForceCalibration::kMiddle_m;
   fact(ui, "Position", printed("%.1f %.1f %.1f", p.x, p.y, p.z), "mm",
        in_middle ? ui.colours.text : ui.colours.warning);
