@@ -2,7 +2,9 @@
 //
 // A change that comes while force is sent is on trial until it has been in contact for kTrial_s. When the gate acts
 // within that time, the last preset known good is used again from the next tick on, faded in as every change is:
-//   stopped   the gate stopped for a cause that a preset can have: shaking, a leap of finger or roller, not finite
+//   stopped   the gate stopped for a cause that a preset can have: shaking, a leap of finger or roller, not finite; a
+//             display that stood still or failed, after a change of its controller; late ticks, where the solver
+//             itself took longer than the servo's period since the change
 //   limited   it limited how fast the force changes in kLimited of kLimitedOf ticks, which before the change it did
 //   not.
 //             One step of a coarse facet is not a loop that shakes; and a force at the device's peak is none either: it
@@ -60,13 +62,15 @@ class PresetGuard {
   /// A letter came. `live`: the gate lets force through. False: it is to be dropped.
   bool take(const PresetLetter& letter, const PresetLetter& in_use, bool live) noexcept;
   /// Once a tick, after the gate. Returns what to use from the next tick on; null: nothing changes.
+  /// `overran`: this tick's solver took longer than the servo's period.
   const PresetLetter* watch(const GateOutput& gate, const EnergyWatch& energy, const PresetLetter& in_use,
-                            std::uint64_t tick, double dt_s) noexcept;
+                            std::uint64_t tick, double dt_s, bool overran = false) noexcept;
   const PresetUndone& undone() const { return undone_; }
   bool on_trial() const { return trial_left_s_ > 0.0; }
 
  private:
-  UndoneBecause acts(const GateOutput& gate, const EnergyWatch& energy) const noexcept;
+  UndoneBecause acts(const GateOutput& gate, const EnergyWatch& energy, const Preset& in_use) const noexcept;
+  bool by_preset(GateFault fault, const Preset& in_use) const noexcept;
   void note_limits(const GateOutput& gate) noexcept;
 
   PresetLetter good_;
@@ -75,6 +79,7 @@ class PresetGuard {
   std::uint32_t limited_ = 0;  ///< of the last 32 ticks, bit by bit
   int since_limited_ = kLimitedBefore;
   bool excused_ = false;  ///< the force was limited before the change, too
+  int overran_ = 0;       ///< ticks since the change
   GateState last_state_ = GateState::disarmed;
 };
 

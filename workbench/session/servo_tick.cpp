@@ -80,8 +80,9 @@ void ServoTick::use(const PresetLetter& letter) noexcept {
   if (devices_.display) devices_.display->set_controller(preset_.preset.controller);
 }
 
-void ServoTick::guard_preset(GateOutput& out, double dt_s) noexcept {
-  go_back_to_ = guard_.watch(out, gate_.energy(), preset_, tick_, dt_s);
+void ServoTick::guard_preset(GateOutput& out, double dt_s, double solve_ns) noexcept {
+  const bool overran = 1e-9 * solve_ns > gate_.limits().period_s;
+  go_back_to_ = guard_.watch(out, gate_.energy(), preset_, tick_, dt_s, overran);
   if (go_back_to_ == nullptr) return;
   gate_.note_undone(out);
   channels_.undone.put(guard_.undone());
@@ -265,7 +266,7 @@ void ServoTick::pass_gate(double dt_s, ServoRecord& record) noexcept {
                   .declared_j = declared_work(force, elastic_n)};
   add_pull(dt_s, record, input);
   GateOutput out = gate_.pass(input, dt_s);
-  guard_preset(out, dt_s);
+  guard_preset(out, dt_s, record.tick.solve_ns);
   display_command_.target_m = out.display_m;
   record.device.gate_state = out.state;
   record.device.gate_fault = out.fault;

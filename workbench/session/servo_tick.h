@@ -47,7 +47,7 @@ class ServoTick {
  private:
   void take_letters() noexcept;
   void use(const PresetLetter& letter) noexcept;
-  void guard_preset(GateOutput& out, double dt_s) noexcept;
+  void guard_preset(GateOutput& out, double dt_s, double solve_ns) noexcept;
   void take_force_switch() noexcept;
   void take_scene() noexcept;
   void take_placement() noexcept;

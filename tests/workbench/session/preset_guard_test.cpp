@@ -1,9 +1,8 @@
 // A change of preset that makes the safety gate act is undone by the servo itself, and a harmless one never is: the
 // simulated hand at 1 kHz, on several meshes.
 #include "core/lab/objects/generate.h"
-#include "devices/simulated/simulated_force_device.h"
 #include "tests/support/meshes.h"
-#include "tests/workbench/session/session_fixture.h"
+#include "tests/workbench/session/guard_fixture.h"
 #include "workbench/session/bookmarks.h"
 #include "workbench/session/safe_range/safe_sweep.h"
 #include "workbench/session/safety_log.h"
@@ -19,10 +18,6 @@ using namespace tangent;
 using namespace tangent::test;
 
 namespace {
-
-bool did(const ServoRecord& record, GateAction action) {
-  return ((record.device.gate_actions >> static_cast<unsigned>(action)) & 1u) != 0;
-}
 
 /// Spot, 5,856 triangles, as large as a fist: a body with limbs, as the bunny.
 ScenePtr spot_scene() {
@@ -45,48 +40,8 @@ std::vector<Body> bodies() {
   return {{"torus", torus_scene()}, {"cube", cube}, {"spot", spot_scene()}};
 }
 
-/// A hand that damps little, on a device without friction: it shakes from some 5,000 N/m on.
-SimulatedForceOptions lively() {
-  SimulatedForceOptions o;
-  o.hand_damping_n_s_per_m = 2.0;
-  o.friction_n = o.position_step_m = 0.0;
-  return o;
-}
-
-struct Bench {
-  TickBench bench;
-  std::uint32_t id = 0, seen = 0;
-
-  explicit Bench(const ScenePtr& scene, const SimulatedForceOptions& options = lively(), const Preset& preset = soft())
-      : bench(set(options), scene, preset) {
-    HandCommand hand;
-    hand.settings.press_m = 10e-3;
-    bench.channels.hand.put(hand);
-    bench.arm();
-    REQUIRE(bench.run(1500).device.gate_state == GateState::armed);
-  }
-  static DeviceSet set(const SimulatedForceOptions& options) {
-    DeviceSet s;
-    s.force = std::make_unique<SimulatedForceDevice>(options);
-    REQUIRE(s.force->open());
-    return s;
-  }
-  static Preset soft() {
-    Preset preset;
-    preset.force.stiffness_n_per_m = 400.0;
-    return preset;
-  }
-  void change(const Preset& preset) { bench.channels.presets.put({++id, preset, true, seen}); }
-  PresetUndone undone() {
-    PresetUndone out;
-    out.count = seen;
-    if (bench.channels.undone.take(out)) seen = out.count;
-    return out;
-  }
-};
-
 Preset stiff(double n_per_m) {
-  Preset preset = Bench::soft();
+  Preset preset = GuardBench::soft();
   preset.force.stiffness_n_per_m = n_per_m;
   return preset;
 }
@@ -98,7 +53,7 @@ TEST_CASE("a change that makes the gate act is undone within 5 ticks, on torus, 
     for (const double n_per_m : {16e3, 40e3}) {
       CAPTURE(body.name);
       CAPTURE(n_per_m);
-      Bench b(body.scene);
+      GuardBench b(body.scene);
       const Preset bad = stiff(n_per_m);
       b.change(bad);
       std::uint64_t changed = 0, limited = 0, acted = 0, back = 0;
@@ -107,9 +62,9 @@ TEST_CASE("a change that makes the gate act is undone within 5 ticks, on torus, 
       for (int i = 0; i < 6000 && back == 0; ++i) {
         r = b.bench.run();
         if (changed == 0) changed = r.tick.tick;
-        row = did(r, GateAction::slew_limited) ? row + 1 : 0;
+        row = gate_did(r, GateAction::slew_limited) ? row + 1 : 0;
         if (row == 1) limited = r.tick.tick;
-        if (acted == 0 && did(r, GateAction::preset_undone)) acted = r.tick.tick;
+        if (acted == 0 && gate_did(r, GateAction::preset_undone)) acted = r.tick.tick;
         if (acted != 0 && r.tick.preset_id == 0) back = r.tick.tick;
       }
       REQUIRE(acted != 0);
@@ -128,7 +83,7 @@ TEST_CASE("a change that makes the gate act is undone within 5 ticks, on torus, 
 }
 
 TEST_CASE("after it was undone without a stop the hand is calm again, and the force came back without a step") {
-  Bench b(torus_scene());
+  GuardBench b(torus_scene());
   b.change(stiff(16e3));
   double most_change_n = 0.0;
   Vec3 last(0.0);
@@ -136,7 +91,7 @@ TEST_CASE("after it was undone without a stop the hand is calm again, and the fo
   ServoRecord r;
   for (int i = 0; i < 9000; ++i) {
     r = b.bench.run();
-    if (did(r, GateAction::preset_undone)) acted = r.tick.tick;
+    if (gate_did(r, GateAction::preset_undone)) acted = r.tick.tick;
     if (acted != 0) most_change_n = std::max(most_change_n, glm::length(r.device.force_command_n - last));
     last = r.device.force_command_n;
     if (acted != 0 && r.tick.tick > acted + 1500) break;
@@ -157,7 +112,7 @@ TEST_CASE("each thing that the gate does counts by itself, and what a preset can
     CHECK(guard.take(bad, good, true));
     REQUIRE(guard.on_trial());
   };
-  const PresetLetter good{3, Bench::soft(), true}, bad{4, stiff(900.0), true};
+  const PresetLetter good{3, GuardBench::soft(), true}, bad{4, stiff(900.0), true};
   for (const GateFault fault :
        {GateFault::shaking, GateFault::position_jumped, GateFault::display_jumped, GateFault::force_not_finite,
         GateFault::late_tick, GateFault::force_device, GateFault::stale_sample, GateFault::exchange_hung}) {
@@ -190,11 +145,76 @@ TEST_CASE("each thing that the gate does counts by itself, and what a preset can
   CHECK(guard.undone().why == UndoneBecause::energy);
 }
 
+TEST_CASE(
+    "a display that stands still is the doing of its controller's values, and late ticks of a solver that overran") {
+  const GateOutput armed{.force_n = Vec3(1.0, 0.0, 0.0), .state = GateState::armed};
+  const PresetLetter good{3, GuardBench::soft(), true};
+  PresetLetter stiffer{4, stiff(900.0), true}, slower{5, GuardBench::soft(), true};
+  slower.preset.controller.p_per_s2 = 10.0;
+  const auto taken_back = [&](const PresetLetter& bad, GateFault fault, int overran) {
+    PresetGuard guard;
+    static_cast<void>(guard.watch(armed, {}, good, 0, 1e-3, true));  // before the change: not its doing
+    CHECK(guard.take(bad, good, true));
+    for (int i = 0; i < 10; ++i) static_cast<void>(guard.watch(armed, {}, bad, 0, 1e-3, i < overran));
+    return guard.watch({.state = GateState::faulted, .fault = fault}, {}, bad, 7, 1e-3) != nullptr;
+  };
+  for (const GateFault fault : {GateFault::display_frozen, GateFault::contact_display}) {
+    CHECK(taken_back(slower, fault, 0));
+    CHECK_FALSE(taken_back(stiffer, fault, 0));
+  }
+  CHECK_FALSE(taken_back(stiffer, GateFault::late_tick, 0));
+  CHECK(taken_back(stiffer, GateFault::late_tick, 1));
+  CHECK_FALSE(taken_back(stiffer, GateFault::late_ticks, 2));
+  CHECK(taken_back(stiffer, GateFault::late_ticks, 3));
+}
+
+namespace {
+std::int64_t made_up_ns = 0, solve_takes_ns = 0;
+std::int64_t made_up_clock() noexcept { return made_up_ns += solve_takes_ns; }
+}  // namespace
+
+TEST_CASE("a change that makes ticks longer than the servo's period is undone in the tick after the gate stops") {
+  for (const bool slow : {false, true}) {
+    CAPTURE(slow);
+    DeviceSet devices = GuardBench::set(lively(), false);
+    ServoChannels channels(4096);
+    ServoStatistics statistics;
+    const Preset soft = GuardBench::soft();
+    solve_takes_ns = 1000;
+    ServoTick tick(devices, channels, statistics, std::make_unique<PreparedScene>(torus_scene(), soft.finger),
+                   PresetLetter{0, soft}, made_up_clock);
+    channels.force.put(ForceSwitch::arm);
+    TickTiming timing;
+    timing.dt_s = 1e-3;
+    ServoRecord r;
+    const auto run = [&](double dt_s) {
+      timing.dt_s = dt_s;
+      timing.t_s += dt_s;
+      tick.run(timing);
+      REQUIRE(channels.gui.pop(r));
+    };
+    for (int i = 0; i < 1500; ++i) run(1e-3);
+    REQUIRE(r.device.gate_state == GateState::armed);
+    channels.presets.put({1, stiff(500.0), true, 0});
+    solve_takes_ns = slow ? 2'500'000 : 1000;
+    std::uint64_t stopped = 0, back = 0;
+    for (int i = 0; i < 60 && back == 0; ++i) {
+      run(3e-3);  // late either way: another process has the processor, or the solver takes so long
+      if (stopped == 0 && r.device.gate_state == GateState::faulted) stopped = r.tick.tick;
+      if (stopped != 0 && r.tick.preset_id == 0) back = r.tick.tick;
+    }
+    REQUIRE(stopped != 0);
+    CHECK(r.device.gate_fault == GateFault::late_ticks);
+    CHECK((back != 0) == slow);
+    if (slow) CHECK(back - stopped <= 5);
+  }
+}
+
 TEST_CASE("a change that was in contact for its time is known good, and is what the next one goes back to") {
   const GateOutput armed{.force_n = Vec3(1.0, 0.0, 0.0), .state = GateState::armed};
   GateOutput in_air = armed;
   in_air.force_n = Vec3(0.0);
-  const PresetLetter first{0, Bench::soft(), true}, second{1, stiff(900.0), true}, third{2, stiff(1000.0), true};
+  const PresetLetter first{0, GuardBench::soft(), true}, second{1, stiff(900.0), true}, third{2, stiff(1000.0), true};
   PresetGuard guard;
   static_cast<void>(guard.watch(armed, {}, first, 0, 1e-3));
   CHECK(guard.take(second, first, true));
@@ -214,12 +234,12 @@ TEST_CASE("a change that was in contact for its time is known good, and is what 
 }
 
 TEST_CASE("letters sent before their sender knew are dropped, and those after count") {
-  Bench b(torus_scene());
+  GuardBench b(torus_scene());
   b.change(stiff(20e3));
   ServoRecord r;
   do r = b.bench.run();
-  while (!did(r, GateAction::preset_undone) && r.tick.tick < 8000);
-  REQUIRE(did(r, GateAction::preset_undone));
+  while (!gate_did(r, GateAction::preset_undone) && r.tick.tick < 8000);
+  REQUIRE(gate_did(r, GateAction::preset_undone));
   b.change(stiff(30e3));  // a slider that is still being dragged
   r = b.bench.run(3);
   CHECK(r.tick.preset_id == 0);
@@ -232,7 +252,7 @@ TEST_CASE("letters sent before their sender knew are dropped, and those after co
 TEST_CASE("a person's stop, a fault of the device and a change while disarmed undo nothing") {
   for (const int what : {0, 1, 2}) {
     CAPTURE(what);
-    Bench b(torus_scene());
+    GuardBench b(torus_scene());
     if (what == 2) {
       b.bench.channels.stop.store(true);
       b.bench.run(5);
@@ -242,20 +262,20 @@ TEST_CASE("a person's stop, a fault of the device and a change while disarmed un
     if (what == 0) b.bench.channels.stop.store(true);
     if (what == 1) b.bench.channels.faults.put({{InjectedFault::drop_out, 50}, false});
     bool any = false;
-    for (int i = 0; i < 2000; ++i) any = any || did(b.bench.run(), GateAction::preset_undone);
+    for (int i = 0; i < 2000; ++i) any = any || gate_did(b.bench.run(), GateAction::preset_undone);
     CHECK_FALSE(any);
     CHECK(b.undone().count == 0);
   }
 }
 
 TEST_CASE("unguarded changes are not undone, whatever the gate does") {
-  Bench b(torus_scene());
+  GuardBench b(torus_scene());
   b.bench.channels.presets.put({1, stiff(20e3)});
   ServoRecord r;
   bool any = false;
   for (int i = 0; i < 3000; ++i) {
     r = b.bench.run();
-    any = any || did(r, GateAction::preset_undone);
+    any = any || gate_did(r, GateAction::preset_undone);
   }
   CHECK_FALSE(any);
   CHECK(r.tick.preset_id == 1);
@@ -275,7 +295,7 @@ TEST_CASE("100 changes inside the safe ranges are all kept") {
     const bool torus = body.scene == torus_scene();
     sweep.start({body.scene, {}}, base, torus ? std::vector{stiffness, damping} : std::vector{stiffness}, 1);
     sweep.wait();
-    Bench b(body.scene, options, base);
+    GuardBench b(body.scene, options, base);
     std::mt19937_64 random(17);
     const auto share = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
     const int count = rounds(torus ? 40 : 30);
@@ -290,7 +310,7 @@ TEST_CASE("100 changes inside the safe ranges are all kept") {
       if (sweep.known(wanted).safety != Safety::stable) continue;
       b.change(wanted);
       bool any = false;
-      for (int tick = 0; tick < 300; ++tick) any = any || did(b.bench.run(), GateAction::preset_undone);
+      for (int tick = 0; tick < 300; ++tick) any = any || gate_did(b.bench.run(), GateAction::preset_undone);
       CHECK_FALSE(any);
       ++i;
       ++changes;
@@ -311,7 +331,7 @@ TEST_CASE("a session goes back by itself, under an id of its own, and history, l
   SessionOptions wanted;
   wanted.threaded = false;
   wanted.hand.press_m = 6e-3;
-  auto made = Session::create(torus_scene(), Bench::soft(), wanted, std::move(devices));
+  auto made = Session::create(torus_scene(), GuardBench::soft(), wanted, std::move(devices));
   REQUIRE(made);
   Session& session = **made;
   REQUIRE(session.start());
@@ -323,7 +343,7 @@ TEST_CASE("a session goes back by itself, under an id of its own, and history, l
   for (int i = 0; i < 100 && session.preset_undone().count == 0; ++i) session.advance(100);
   REQUIRE(session.preset_undone().count == 1);
   CHECK(session.preset_undone().bad_id == *bad);
-  CHECK(session.preset() == Bench::soft());
+  CHECK(session.preset() == GuardBench::soft());
   CHECK(session.preset_id() == *bad + 1);
   session.advance(50);
   CHECK(session.history().newest().tick.preset_id == session.preset_id());
