@@ -25,6 +25,7 @@ std::vector<std::string> parts_of(const std::string& text, std::string_view betw
 }
 
 double value_of(const PresetKey& key, const std::string& value, const std::string& text) {
+  if (value.empty()) refuse_range(text, "lacks a value; write TABLE.KEY=A,B,C or TABLE.KEY=FROM..TO");
   const std::optional<double> number =
       key.kind == KeyKind::choice ? std::optional<double>(key.choice_index(value)) : parse_finite_double(value);
   if (!number || !key.allows(*number)) refuse_range(text, "has a value out of range; allowed: " + key.allowed());

@@ -55,7 +55,8 @@ class PlanReader {
 
   Status texts(const toml::key& key, const toml::node& node, const std::function<Status(std::string)>& add) const {
     const toml::array* list = node.as_array();
-    if (list == nullptr || list->empty()) return wrong(key, "a list of names");
+    if (list == nullptr) return wrong(key, "a list of names");
+    if (list->empty()) return fail("is empty", where(key), "list a name at least");
     for (const toml::node& item : *list) {
       if (!item.is_string()) return wrong(key, "a list of names");
       if (Status ok = add(item.as_string()->get()); !ok) return ok;

@@ -225,6 +225,8 @@ TEST_CASE("sweep: wrong usage is told from work that failed") {
            {{cube, "--poses", "around", "--out", out, "--range", "solver.gain=1"}, 2, "names no key"},
            {{cube, "--poses", "around", "--out", out, "--range", "solver.gain_overall=1..2:x"}, 2, "count"},
            {{cube, "--poses", "around", "--out", out, "--range", "solver.gain_overall=99"}, 2, "allowed: 0 to 10"},
+           {{cube, "--poses", "around", "--out", out, "--range", "solver.gain_overall="}, 2, "lacks a value"},
+           {{cube, "--poses", "around", "--out", out, "--range", "solver.gain_overall=1..:3"}, 2, "lacks a value"},
            {{cube, "--poses", "around", "--out", out, "--threads", "0"}, 2, "--threads"},
            {{cube, "--out", out}, 2, "--poses: no motion"},
            {{cube, "--poses", "around", "--out", out, "--methods", "newtn"}, 2, "is no method"},

@@ -92,6 +92,8 @@ TEST_CASE("a plan that can't be run is refused by key and line") {
            {"ticks = 0\n", "p.toml:4 ticks"},
            {"fit_mm = -1\n", "p.toml:4 fit_mm"},
            {"unit = \"mile\"\n", "p.toml:4 unit"},
+           {"methods = []\n", "p.toml:4 methods: is empty"},
+           {"methods = 3\n", "p.toml:4 methods: is not a list of names"},
            {"sampling = \"sobol\"\n", "needs samples"},
            {"samples = 5\n", "samples contradicts"},
            {"sampling = \"sobol\"\nsamples = 5\n", "nothing to sample"},
