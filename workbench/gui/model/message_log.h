@@ -59,6 +59,13 @@ class MessageLog {
     for (const Message& m : messages_) n += !m.toast && now_s - m.at_s < kHeldBackShown_s ? 1u : 0u;
     return n;
   }
+  /// Said below the toasts that are shown, of those that are held back; empty: none is.
+  std::string held_back_text(double now_s, bool below_toasts) const {
+    const std::size_t n = held_back(now_s);
+    if (n == 0) return {};
+    return below_toasts ? "and " + std::to_string(n) + " more under Messages"
+                        : std::to_string(n) + " new under Messages";
+  }
   void dismiss(std::size_t i) { messages_[i].dismissed = true; }
 
   /// Errors stay longer than notes.

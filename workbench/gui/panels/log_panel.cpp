@@ -98,9 +98,8 @@ void draw_toasts(const UiContext& ui, AppModel& model, const Rect& over) {
     y += height + ui.px(6);
     ++shown;
   }
-  const std::size_t held_back = model.messages().held_back(model.now_s());
-  if (held_back == 0 || width < ui.px(80)) return;
-  const std::string more = printed("and %zu more under Messages", held_back);
+  const std::string more = model.messages().held_back_text(model.now_s(), shown > 0);
+  if (more.empty() || width < ui.px(80)) return;
   ImGui::GetForegroundDrawList()->AddText(ui.fonts.small, ui.fonts.small->FontSize, {over.x + ui.px(14), y},
                                           ui.colours.text_dim, more.c_str());
 }
