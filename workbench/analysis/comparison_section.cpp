@@ -15,39 +15,54 @@ const experiment::PaperThreshold* paper_of(const std::string& condition) {
   return nullptr;
 }
 
+void add_number(PageTable::Row& row, double value, int decimals) { row.number(value, decimals_text(value, decimals)); }
+
 PageTable conditions_table(const ComparisonResults& results, bool simulated) {
   PageTable table(
       "conditions",
       "Thresholds over participants, with 95 % intervals, which are cut at the fewest segments that are shown; in "
       "degrees between neighbouring segments.",
       simulated);
-  table.column("Condition", "condition").column("Participants", "participants").column("Not settled", "not_settled");
-  table.column("With a warning", "warned");
+  table.column("Condition", "condition").column("Participants", "participants");
   table.column("Segments", "segments").column("from", "segments_low").column("to", "segments_high");
   table.column("Degrees", "degrees").column("from", "degrees_low").column("to", "degrees_high");
-  table.column("Trials each", "trials").column("Rule over threshold", "rule_bias");
-  table.column("Spread", "spread").column("from", "spread_low").column("to", "spread_high");
   table.column("Paper, segments", "paper_segments").column("\xC2\xB1", "paper_half");
   for (const ConditionResult& c : results.conditions) {
     const experiment::PaperThreshold* paper = paper_of(c.condition);
     const bool some = !c.thresholds.empty();
     const double none = std::nan("");
-    const auto value = [&](PageTable::Row& row, double v, int decimals) { row.number(v, decimals_text(v, decimals)); };
     PageTable::Row row = table.row();
-    row.text(c.condition).count(c.thresholds.size()).count(c.not_settled).count(c.warned);
-    value(row, some ? c.segments.mean : none, 1);
-    value(row, some ? c.low : none, 1);
-    value(row, some ? c.high : none, 1);
-    value(row, some ? c.degrees : none, 2);
-    value(row, some ? c.degrees_low : none, 2);
-    value(row, some ? c.degrees_high : none, 2);
-    value(row, c.mean_trials, 1);
-    value(row, c.rule_bias, 2);
-    value(row, c.spread.spread, 2);
-    value(row, c.spread.low, 2);
-    value(row, c.spread.high, 2);
-    value(row, paper != nullptr ? paper->segments : none, 1);
-    value(row, paper != nullptr ? paper->half_interval : none, 2);
+    row.text(c.condition).count(c.thresholds.size());
+    add_number(row, some ? c.segments.mean : none, 1);
+    add_number(row, some ? c.low : none, 1);
+    add_number(row, some ? c.high : none, 1);
+    add_number(row, some ? c.degrees : none, 2);
+    add_number(row, some ? c.degrees_low : none, 2);
+    add_number(row, some ? c.degrees_high : none, 2);
+    add_number(row, paper != nullptr ? paper->segments : none, 1);
+    add_number(row, paper != nullptr ? paper->half_interval : none, 2);
+  }
+  return table;
+}
+
+/// How the thresholds were come by. A table of its own: one of both is wider than a page.
+PageTable rule_table(const ComparisonResults& results, bool simulated) {
+  PageTable table("rule",
+                  "Staircases of each condition, where their rule settles, and the spread of the psychometric "
+                  "function, with its 95 % interval.",
+                  simulated);
+  table.column("Condition", "condition").column("Trials each", "trials").column("Not settled", "not_settled");
+  table.column("With a warning", "warned").column("Rule over threshold", "rule_bias");
+  table.column("Spread", "spread").column("from", "spread_low").column("to", "spread_high");
+  for (const ConditionResult& c : results.conditions) {
+    PageTable::Row row = table.row();
+    row.text(c.condition);
+    add_number(row, c.mean_trials, 1);
+    row.count(c.not_settled).count(c.warned);
+    add_number(row, c.rule_bias, 2);
+    add_number(row, c.spread.spread, 2);
+    add_number(row, c.spread.low, 2);
+    add_number(row, c.spread.high, 2);
   }
   return table;
 }
@@ -89,10 +104,7 @@ PageTable pairs_table(const ComparisonResults& results, bool simulated) {
 }
 
 PageTable order_table(const ComparisonResults& results, bool simulated) {
-  PageTable table("order",
-                  "Do conditions come in the order of the paper's Table 2: Kendall's tau of the mean thresholds, 1 the "
-                  "same order, 0 none in common, with its 95 % interval over participants drawn again.",
-                  simulated);
+  PageTable table("order", "Order of the conditions and the paper's (Table 2).", simulated);
   table.column("Participants", "participants").column("Tau", "tau").column("from", "low").column("to", "high");
   const OrderAgreement& order = *results.order;
   table.row()
@@ -162,7 +174,7 @@ Result<Section> comparison_section(const ComparisonResults& results, bool simula
                                 " have a warning: what is no threshold is in the means all the same. The last table "
                                 "says which, and why."),
                         "class=\"bad\"");
-  std::vector<PageTable> tables{conditions_table(results, simulated)};
+  std::vector<PageTable> tables{conditions_table(results, simulated), rule_table(results, simulated)};
   if (results.order) tables.push_back(order_table(results, simulated));
   tables.push_back(anova_table(results, simulated));
   tables.push_back(pairs_table(results, simulated));
@@ -175,7 +187,8 @@ Result<Section> comparison_section(const ComparisonResults& results, bool simula
       "Rule over threshold: how far the rule's mean of reversals lies off in simulated staircases with these "
       "thresholds and the condition's spread; steps and start decide that. Spread: of the psychometric function in "
       "the logarithm of segments, all participants together, between 0.05 and 2; a single staircase does not tell "
-      "it. The paper's own angles: its means are 51.68 / (n - 1) degrees, "
+      "it. Tau: Kendall's, of the mean thresholds and Table 2, 1 the same order, 0 none in common, with its 95 % "
+      "interval over participants drawn again. The paper's own angles: its means are 51.68 / (n - 1) degrees, "
       "the ends of its intervals 51.68 / n.");
   out.html += element("h3", "Staircases");
   int number = 1;

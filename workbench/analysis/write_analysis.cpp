@@ -16,6 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxTableBytes = std::size_t{1} << 20;
+// Printed, the first part begins below the few lines of the head.
+constexpr const char* kFirstPart = "@media print { h2:first-of-type { break-before: auto; } }\n";
 
 Status make_folder(const fs::path& folder) {
   std::error_code error;
@@ -112,7 +114,9 @@ Status add_figure(Section& section, Figure figure, const std::string& caption, b
   if (figure.script.empty()) return {};
   const Result<std::string> svg = figure_svg(figure);
   if (!svg) return tl::unexpected(svg.error());
-  section.html += element("figure", element("div", *svg, "class=\"figure\"") + element("figcaption", escaped(caption)));
+  constexpr int kNarrow_px = 800;  // with the page's full width its letters would be larger than the page's
+  const char* kind = figure.width_px < kNarrow_px ? "class=\"figure narrow\"" : "class=\"figure\"";
+  section.html += element("figure", element("div", *svg, kind) + element("figcaption", escaped(caption)));
   for (FigureData& data : figure.data) {
     data.table.columns.emplace_back("simulated");
     for (auto& row : data.table.rows)
@@ -155,7 +159,8 @@ std::string page(const Answers& answers, const std::string& sections, const std:
 std::string whole_page(const std::string& title, const std::string& body) {
   return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
          "content=\"width=device-width, initial-scale=1\"><title>" +
-         escaped(title) + "</title><style>" + page_style() + "</style></head><body>" + body + "</body></html>\n";
+         escaped(title) + "</title><style>" + page_style() + kFirstPart + "</style></head><body>" + body +
+         "</body></html>\n";
 }
 
 Result<fs::path> write_analysis(const Answers& answers, const AnalysisOptions& options) {

@@ -10,6 +10,7 @@
 #include "core/lab/objects/generate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace tangent::experiment {
@@ -100,11 +101,13 @@ class ProtocolReader {
     arc.choice("placement", kPlacementNames, [&](std::size_t i) { d.placement = static_cast<ArcPlacement>(i); });
     if (Status ok = finish(arc); !ok) return ok;
     StaircaseRule common;
-    if (Status ok = read_staircase(common); !ok) return ok;
+    const int least = d.placement == ArcPlacement::tangent ? 3 : 2;  // of ArcStimulus
+    common.fewest = least;
+    if (Status ok = read_staircase(common, least); !ok) return ok;
     return read_conditions(common, d.conditions);
   }
 
-  Status read_staircase(StaircaseRule& rule) {
+  Status read_staircase(StaircaseRule& rule, int least) {
     TomlTable t = reader("staircase");
     t.whole("reversals", rule.reversals, 1, 1000).whole("large_reversals", rule.large_reversals, 0, 1000);
     t.whole("averaged", rule.averaged, 1, 1000).whole("down", rule.down, 1, 10);
@@ -113,6 +116,9 @@ class ProtocolReader {
     t.whole("most_trials", rule.most_trials, 1, 100000);
     if (Status ok = finish(t); !ok) return ok;
     if (rule.averaged > rule.reversals) return fail("averages more reversals than there are", t.where("averaged"));
+    if (std::lround(rule.fewest) < least)
+      return fail("would show " + std::to_string(std::lround(rule.fewest)) + " segments, which make no tangent arc",
+                  t.where("fewest"), "write 3 or more, or choose inscribed ones: arc.placement");
     if (rule.fewest >= rule.most) return fail("is not below most", t.where("fewest"), "write fewer segments");
     return {};
   }

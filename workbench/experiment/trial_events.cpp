@@ -47,8 +47,11 @@ Result<TrialEvents> TrialEvents::open(const std::filesystem::path& rows, const E
   if (Status ok = write_file_atomic(meaning, columns_json(kEventColumns)); !ok) return tl::unexpected(ok.error());
   TrialEvents out(std::move(*file));
   for (const Fields& row : out.file_.rows()) {
-    if (is_trial(row)) ++out.begun_[std::atoi(row[3].c_str())];
-    out.newest_s_ = std::max(out.newest_s_, parse_finite_double(row[0]).value_or(0.0));
+    const int trial = std::atoi(row[3].c_str());
+    const double onset_s = parse_finite_double(row[0]).value_or(0.0);
+    if (is_trial(row)) ++out.begun_[trial];
+    if (row[2] == name_of(TrialEvent::started)) out.starts_.emplace_back(trial, onset_s);
+    out.newest_s_ = std::max(out.newest_s_, onset_s);
   }
   return out;
 }
@@ -82,6 +85,13 @@ Result<std::string> events_complaint(const std::filesystem::path& rows, const Si
   if (static_cast<std::size_t>(newest) <= answers) return std::string();
   return rows.string() + ": was cut at its end: trial " + std::to_string(newest) + " was begun after " +
          std::to_string(answers) + (answers == 1 ? " answer" : " answers");
+}
+
+std::optional<double> TrialEvents::started_before_s(int trial) const {
+  std::optional<double> out;
+  for (const auto& [under_way, onset_s] : starts_)
+    if (under_way < trial) out = onset_s;
+  return out;
 }
 
 int TrialEvents::begun(int trial) const {

@@ -5,7 +5,10 @@
 #include "workbench/experiment/experiment_folder.h"
 
 #include <map>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace tangent::experiment {
 
@@ -33,6 +36,8 @@ class TrialEvents {
   Status add(double onset_s, int trial, TrialEvent event, const std::string& text);
   /// How often the trial was begun, in all starts of the program.
   int begun(int trial) const;
+  /// Onset of the newest start that began before this trial: of the session before, where the trial begins a session.
+  std::optional<double> started_before_s(int trial) const;
   double newest_s() const { return newest_s_; }  ///< onset of the newest, 0: there is none
   std::size_t count() const { return file_.count(); }
 
@@ -40,6 +45,7 @@ class TrialEvents {
   explicit TrialEvents(RowFile file) : file_(std::move(file)) {}
   RowFile file_;
   std::map<int, int> begun_;
+  std::vector<std::pair<int, double>> starts_;  ///< trial under way, onset
   double newest_s_ = 0.0;
 };
 

@@ -50,7 +50,7 @@ struct ParticipantView {
   std::string hint;               ///< why a key was not taken; empty: it was
   bool show_scene = false;        ///< training and practice: `TrialSession::session().scene()` may be drawn
   bool show_finger = false;       ///< on the way to the start, the finger may be drawn as a dot
-  Vec3 finger_from_start_m{0.0};  ///< then; world
+  Vec3 finger_from_start_m{0.0};  ///< then; world: x away from the person, y left, z up
   int trial = 0, of = 0;          ///< from 1; `of` is a guess where answers decide
   Phase phase = Phase::training;
   std::uint64_t cues = 0;  ///< sounds so far: a change is a ding

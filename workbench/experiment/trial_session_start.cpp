@@ -10,22 +10,34 @@ namespace {
 
 constexpr const char* kSimulatedDevice = "device";  // of RunMark::simulated: nobody felt anything
 
-/// What a start of the program needs to know of those before. Fails where a session is begun too soon.
-Result<double> begun_after_s(const TrialRun& run, double newest_event_s, const TrialOptions& options,
+/// Fails where a session would begin too soon after the start of the one before. A start that came to no answer of its
+/// session is none of the one before.
+Status check_days(const TrialRun& run, const TrialEvents& events, const SidecarHead& head, const TrialOptions& options,
+                  std::int64_t now_utc_s) {
+  if (options.same_day || !run.begins_session()) return {};
+  const double wanted = options.protocol.identification()->hours_between_sessions;
+  const auto onset_s = events.started_before_s(run.trial());
+  const std::int64_t before_utc_s =
+      onset_s ? head.starts.front().began_utc_s + static_cast<std::int64_t>(*onset_s) : head.starts.back().began_utc_s;
+  const double hours = static_cast<double>(now_utc_s - before_utc_s) / 3600.0;
+  if (hours >= wanted) return {};
+  if (hours < 0.0)
+    return fail("the session before was begun at " + utc_text(before_utc_s) + ", and now it is " + utc_text(now_utc_s),
+                run.rows().string(), "put this computer's clock right, or say --same-day, which the events then tell");
+  char text[120];
+  std::snprintf(text, sizeof text, "the session before was begun %.1f hours ago; the protocol has %g between sessions",
+                hours, wanted);
+  return fail(text, run.rows().string(), "go on later, or say --same-day, which the events then tell");
+}
+
+/// Seconds from a participant's first start to this one. A clock that was put back takes none away.
+Result<double> begun_after_s(const TrialRun& run, const TrialEvents& events, const TrialOptions& options,
                              std::int64_t now_utc_s) {
   const auto head = read_sidecar_head(sidecar_path(run.rows()));
   if (!head) return tl::unexpected(head.error());
   if (head->starts.empty()) return 0.0;
-  const double hours = static_cast<double>(now_utc_s - head->starts.back().began_utc_s) / 3600.0;
-  const double wanted = run.begins_session() ? options.protocol.identification()->hours_between_sessions : 0.0;
-  if (!options.same_day && hours < wanted) {
-    char text[120];
-    std::snprintf(text, sizeof text,
-                  "the session before was begun %.1f hours ago; the protocol has %g between sessions",
-                  std::max(0.0, hours), wanted);
-    return fail(text, run.rows().string(), "go on later, or say --same-day, which the events then tell");
-  }
-  return std::max(static_cast<double>(now_utc_s - head->starts.front().began_utc_s), std::ceil(newest_event_s));
+  if (Status ok = check_days(run, events, *head, options, now_utc_s); !ok) return tl::unexpected(ok.error());
+  return std::max(static_cast<double>(now_utc_s - head->starts.front().began_utc_s), std::ceil(events.newest_s()));
 }
 
 }  // namespace
@@ -69,7 +81,7 @@ Result<std::unique_ptr<TrialSession>> TrialSession::make(TrialOptions options, D
   if (!run) return tl::unexpected(run.error());
   auto events = TrialEvents::open(run->rows(), options.enrolment);
   if (!events) return tl::unexpected(events.error());
-  const auto after_s = begun_after_s(*run, events->newest_s(), options, now_utc_s);
+  const auto after_s = begun_after_s(*run, *events, options, now_utc_s);
   if (!after_s) return tl::unexpected(after_s.error());
   const RowCounts counts{run->answers(), events->count()};
   if (Status ok = note_start(sidecar_path(run->rows()), now_utc_s, counts); !ok) return tl::unexpected(ok.error());

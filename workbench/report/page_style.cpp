@@ -13,6 +13,9 @@ const char* page_style() {
     --good: #5fce7b; --bad: #ff8a80; --figure-line: #aab3bc; --figure-grid: #2d343c; }
   .figure [stroke="rgb(  0, 114, 178)"] { stroke: #4aa3df; }
   .figure [color="rgb(  0, 114, 178)"] { color: #4aa3df; }
+  .figure [color="rgb(213,  94,   0)"] { color: #ff9a5c; }
+  .figure [fill="rgb(  0, 114, 178)"] { fill: #6db8ea; }
+  .figure [fill="rgb(  0, 158, 115)"] { fill: #3fd0a4; }
 }
 * { box-sizing: border-box; }
 body { margin: 0 auto; padding: 2rem 1.5rem 4rem; max-width: 64rem; background: var(--ground); color: var(--ink);
@@ -51,6 +54,10 @@ figcaption { color: var(--dim); font-size: .875rem; max-width: 46rem; }
 .figure [stroke="rgb( 68,  68,  68)"], .figure [stroke="rgb(119, 119, 119)"] { stroke: var(--figure-line); }
 .figure [stroke="rgb(227, 227, 227)"] { stroke: var(--figure-grid); }
 .figure [fill="rgb(34,34,34)"], .figure [fill="rgb(68,68,68)"], .figure [fill="black"] { fill: var(--ink); }
+.figure [stroke="rgb( 51,  51,  51)"], .figure [stroke="rgb( 34,  34,  34)"] { stroke: var(--ink); }
+.figure [color="rgb( 34,  34,  34)"] { color: var(--ink); }
+.figure [color="white"] { color: var(--ground); }
+.figure [fill="rgb(179,38,30)"] { fill: var(--bad); }
 .worst { display: grid; grid-template-columns: minmax(0, 26rem) minmax(0, 1fr); gap: 1.25rem;
   margin: 1.25rem 0 1.75rem; }
 .worst img { display: block; width: 100%; height: auto; border: 1px solid var(--line); border-radius: 4px; }

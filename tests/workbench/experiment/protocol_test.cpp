@@ -43,6 +43,40 @@ TEST_CASE("the first shipped protocol has the paper's numbers") {
   }
   CHECK(protocol->preset.finger.radius_m == 0.020);
   CHECK(protocol->preset.display.travel_m == 0.016);
+  CHECK(protocol->preset.display.finger_arc_m == 0.016);
+  CHECK(protocol->preset.finger.shape == FingerShape::sphere);
+  CHECK(d->placement == ArcPlacement::tangent);
+}
+
+TEST_CASE("every number of the paper's protocols has its section beside it, or says that it is ours") {
+  for (const std::string name : {"discrimination", "identification"}) {
+    std::istringstream lines(text_of(shipped(name)));
+    int numbers = 0;
+    for (std::string line; std::getline(lines, line);) {
+      const std::size_t equals = line.find('='), comment = line.find('#');
+      if (equals == std::string::npos || comment < equals || line.starts_with("version")) continue;
+      const std::size_t number = line.find_first_of("0123456789", equals);
+      if (number == std::string::npos || number > comment) continue;
+      ++numbers;
+      CAPTURE(name);
+      CAPTURE(line);
+      REQUIRE(comment != std::string::npos);
+      const std::string why = line.substr(comment);
+      const bool experiment_2 = name == "identification";
+      CHECK((why.find("(5.") != std::string::npos || why.find("ours") != std::string::npos));
+      // What is of the other experiment says so.
+      if (why.find(experiment_2 ? "(5.2" : "(5.3") != std::string::npos) CHECK(why.find("as ") != std::string::npos);
+    }
+    CHECK(numbers > 12);
+  }
+}
+
+TEST_CASE("the fewest segments are those that can be made: three tangent ones, two inscribed") {
+  const std::string bare = "[protocol]\nkind = \"discrimination\"\nname = \"x\"\n[[conditions]]\nname = \"C1\"\n";
+  CHECK(parse_protocol(bare, "p.toml")->discrimination()->conditions[0].staircase.fewest == 3.0);
+  const auto inscribed = parse_protocol(bare + "[arc]\nplacement = \"inscribed\"\n", "p.toml");
+  REQUIRE(inscribed);
+  CHECK(inscribed->discrimination()->conditions[0].staircase.fewest == 2.0);
 }
 
 TEST_CASE("the second shipped protocol has the paper's numbers") {
@@ -55,8 +89,15 @@ TEST_CASE("the second shipped protocol has the paper's numbers") {
   CHECK(d->practice == "hexagon");
   CHECK(d->rounding_m == 1.5e-3);
   CHECK(d->sessions * d->blocks * d->runs == 8);
+  CHECK(d->sessions == 2);
+  CHECK(d->blocks == 2);
+  CHECK(d->hours_between_sessions == 24.0);
+  CHECK(d->both_ways == std::vector<std::string>{"cone", "tetrahedron"});
   CHECK(d->hold_s == 1.0);
   CHECK(d->tactile_first_even);
+  CHECK(protocol->preset.finger.radius_m == 0.020);
+  CHECK(protocol->preset.display.travel_m == 0.016);
+  CHECK(protocol->preset.display.finger_arc_m == 0.016);
 }
 
 TEST_CASE("a digest is of what a participant meets, not of how the file is written") {
@@ -84,6 +125,7 @@ TEST_CASE("a protocol that can't be says where and what to do") {
       {"discrimination", "name = \"C1\"", "name = \"C9\"", "C1, C2"},
       {"discrimination", "name = \"C2\"", "name = \"C1\"", "twice"},
       {"discrimination", "fewest = 3", "fewest = 5000", "fewest"},
+      {"discrimination", "fewest = 3", "fewest = 2.4", "2 segments"},  // a staircase would come to it half way
       {"discrimination", "start = 26", "start = 1", "start"},
       {"discrimination", "[arc]", "[arch]", "arch"},
       {"discrimination", "radius_m = 0.100", "radius = 0.1", "radius"},

@@ -122,14 +122,6 @@ TEST_CASE("an unplugged device pauses, is told, and the pair that was cut is beg
   for (const char* event : {"started", "paused", "resumed", "ended"}) CHECK(events.find(event) != std::string::npos);
 }
 
-TEST_CASE("a leap of the clock pauses: ticks of the trial are missing") {
-  Bench bench(test::short_comparison());
-  bench.answer(1);
-  bench.trials->session().advance(9000);  // more than the history holds, and nobody looks
-  bench.trials->poll();
-  CHECK(bench.trials->operator_view().fault.find("missing") != std::string::npos);
-}
-
 TEST_CASE("stopped by the operator: no force at once, notes with their time, and on it goes") {
   Bench bench(test::short_comparison());
   bench.answer(1);
@@ -259,40 +251,6 @@ TEST_CASE("the device's own force bounds what the protocol allows, and the start
   large.answer(1);
   CHECK(most_n > 0.1);
   CHECK(most_n <= own_n);
-}
-
-/// As short_naming, in two sessions.
-std::string two_sessions() {
-  std::string text = test::short_naming();
-  return text.replace(text.find("sessions = 1"), 12, "sessions = 2");
-}
-
-TEST_CASE("a session is not begun within a day of the one before, unless somebody says so, and then it is told") {
-  const auto at = [](double hours, bool same_day = false) {
-    return [hours, same_day](TrialOptions& options) {
-      options.utc_s = [hours] { return 1'764'000'000 + static_cast<std::int64_t>(3600.0 * hours); };
-      options.same_day = same_day;
-    };
-  };
-  Bench bench(two_sessions(), at(0.0));
-  bench.answer(3);
-  bench.trials.reset();
-  bench.start(two_sessions(), at(0.5));  // the same session goes on at any time
-  bench.answer();
-  REQUIRE(bench.trials->finished());
-  REQUIRE(bench.trials->end());
-  CHECK(has(events_of(bench), "\tended\t8\tsession 1 of 2 complete"));
-  bench.trials.reset();
-  const auto early = bench.try_start(two_sessions(), at(3.0));
-  REQUIRE_FALSE(early);
-  CHECK(has(early.error().message(), "2.5 hours ago"));
-  CHECK(has(early.error().message(), "--same-day"));
-  CHECK(bench.try_start(two_sessions(), at(24.6)));
-  {
-    const auto allowed = bench.try_start(two_sessions(), at(3.0, true));
-    REQUIRE(allowed);
-    CHECK(has(test::text_in(events_path((*allowed)->rows())), "sessions need not lie apart"));
-  }
 }
 
 TEST_CASE("a table that was cut at its end is neither gone on with nor taken for a short one") {

@@ -20,15 +20,21 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* kWithoutSound = "say --sound none to go on without; the data then says so";
 
-/// Of the module that was built with ALSA; null: there is none.
-const SoundFunctions* sound_functions() {
+/// Of the module that has ALSA, which needs libasound where it is loaded.
+Result<const SoundFunctions*> sound_functions() {
 #ifdef TANGENT_SOUND_MODULE
   static void* const module = ::dlopen(TANGENT_SOUND_MODULE, RTLD_NOW | RTLD_LOCAL);
-  static const auto get = reinterpret_cast<const SoundFunctions* (*)()>(
-      module != nullptr ? ::dlsym(module, "tangent_sound_functions") : nullptr);
-  return get != nullptr ? get() : nullptr;
+  static const std::string why = module == nullptr ? ::dlerror() : "";
+  if (module == nullptr)
+    return fail("ALSA's library can't be loaded (" + why + "), so nothing can be heard", "sound",
+                std::string("install libasound2, or ") + kWithoutSound);
+  static const auto get = reinterpret_cast<const SoundFunctions* (*)()>(::dlsym(module, "tangent_sound_functions"));
+  if (get != nullptr) return get();
+  return fail(std::string(TANGENT_SOUND_MODULE) + " is no part of this program", "sound",
+              std::string("build it again, or ") + kWithoutSound);
 #else
-  return nullptr;
+  return fail("this program was built without ALSA, so nothing can be heard", "sound",
+              std::string("install libasound2-dev and build it again, or ") + kWithoutSound);
 #endif
 }
 
@@ -98,16 +104,14 @@ SoundPlayer::SoundPlayer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {
 
 Result<std::unique_ptr<SoundPlayer>> SoundPlayer::open(const SoundSettings& settings, const std::string& device) {
   if (Status checked = check_sound(settings); !checked) return tl::unexpected(checked.error());
-  const SoundFunctions* functions = sound_functions();
-  if (functions == nullptr)
-    return fail("this program was built without ALSA, so nothing can be heard", "sound",
-                std::string("install libasound2-dev and build it again, or ") + kWithoutSound);
-  const OpenedSound opened = functions->open(device.c_str(), kSoundRate_hz, kSoundBuffer);
+  const auto functions = sound_functions();
+  if (!functions) return tl::unexpected(functions.error());
+  const OpenedSound opened = (*functions)->open(device.c_str(), kSoundRate_hz, kSoundBuffer);
   if (opened.device == nullptr)
     return fail("sound device \"" + device + "\" can't be opened: " + opened.why, "sound",
                 std::string("name one with --sound-device (aplay -L lists them), or ") + kWithoutSound);
   return std::unique_ptr<SoundPlayer>(
-      new SoundPlayer(std::make_unique<Impl>(*functions, opened.device, settings, device)));
+      new SoundPlayer(std::make_unique<Impl>(**functions, opened.device, settings, device)));
 }
 
 SoundPlayer::~SoundPlayer() {

@@ -47,17 +47,19 @@ PracticeScene::PracticeScene() : renderer_(std::make_unique<SceneRenderer>()) {}
 
 Status PracticeScene::init() { return renderer_->init(); }
 
-/// All of it, and a finger on every side.
+/// All of it, and a finger on every side; from where the person is, so that their left is on the left.
 void PracticeScene::frame_scene(const Session& session, double aspect) {
   if (scene_ == session.scene()) return;
   scene_ = session.scene();
   Box box = world_bounds(*scene_);
-  const Vec3 reach(session.preset().finger.reach_m());
+  const Vec3 reach(2.0 * session.preset().finger.reach_m());
   const Vec3 low = box.min - reach, high = box.max + reach;
   box.include(low);
   box.include(high);
   camera_ = {};
-  camera_.frame(box, 1.05, ViewRoom{.width = aspect});
+  camera_.yaw_rad = 0.0;
+  camera_.pitch_rad = 0.4;
+  camera_.frame(box, 0.75, ViewRoom{.width = aspect});  // of the box's corners, where nothing is
 }
 
 PracticePicture PracticeScene::draw(const Session& session, ImVec2 screen, Theme theme) {

@@ -19,10 +19,11 @@ struct ParticipantScreen {
   std::string prompt;  ///< what to do now
   std::string hint;    ///< why a key was not taken; empty: it was
   std::vector<ScreenKey> keys;
-  int trial = 0, of = 0;                                             ///< from 1; 0: not shown
-  bool show_scene = false;                                           ///< practice and training
-  bool show_mark = false;                                            ///< the start, and where the finger is from it
-  double right_mm = 0.0, up_mm = 0.0, away_mm = 0.0, mark_mm = 5.0;  ///< the mark's radius
+  int trial = 0, of = 0;                              ///< from 1; 0: not shown
+  bool show_scene = false;                            ///< practice and training
+  bool show_mark = false;                             ///< the start, and where the finger is from it,
+  double right_mm = 0.0, up_mm = 0.0, away_mm = 0.0;  ///< as the person has it: away is further forward
+  double mark_mm = 5.0;                               ///< the mark's radius
 };
 
 struct StatusLine {

@@ -73,12 +73,13 @@ ParticipantScreen participant_screen(const experiment::ParticipantView& view, co
   screen.prompt = without_key_list(view.prompt);
   screen.hint = view.hint;
   screen.keys = keys_to_press(protocol, view.phase, choice);
-  screen.trial = view.phase == experiment::Phase::finished ? 0 : view.trial;
+  const bool in_trial = view.phase != experiment::Phase::finished && view.phase != experiment::Phase::training;
+  screen.trial = in_trial ? view.trial : 0;                        // practice is none
   screen.of = protocol.identification() != nullptr ? view.of : 0;  // of a staircase it is a guess
   screen.show_scene = view.show_scene;
   screen.show_mark = view.show_finger;
-  screen.right_mm = 1e3 * view.finger_from_start_m.x;
-  screen.away_mm = 1e3 * view.finger_from_start_m.y;
+  screen.away_mm = 1e3 * view.finger_from_start_m.x;
+  screen.right_mm = -1e3 * view.finger_from_start_m.y;
   screen.up_mm = 1e3 * view.finger_from_start_m.z;
   if (const experiment::Identification* design = protocol.identification())
     screen.mark_mm = 1e3 * design->start_radius_m;
@@ -133,7 +134,9 @@ OperatorScreen operator_screen(const experiment::TrialSession& trials, const Exp
   OperatorScreen screen;
   screen.protocol = facts.protocol.name;
   screen.participant = facts.participant;
-  screen.simulated = facts.simulated;
+  const ForceCapabilities* force = session.force_capabilities();
+  const bool by_device = facts.simulated.empty() && force != nullptr && force->simulated;
+  screen.simulated = by_device ? "device" : facts.simulated;  // as the rows say
   screen.pilot = facts.pilot;
   screen.data = trials.rows().string();
   screen.stimulus = view.stimulus;
@@ -155,8 +158,8 @@ OperatorScreen operator_screen(const experiment::TrialSession& trials, const Exp
   screen.force_n = trace.values();
   screen.trace_s = trace.length_s();
   screen.force_limit_n = facts.protocol.preset.force.limit_n;
-  if (session.force_capabilities() != nullptr) {
-    screen.limit_is_the_devices = session.force_capabilities()->peak_force_n < screen.force_limit_n;
+  if (force != nullptr) {
+    screen.limit_is_the_devices = force->peak_force_n < screen.force_limit_n;
     screen.force_limit_n = experiment::force_limit_n(facts.protocol, session);
   }
   return screen;

@@ -25,7 +25,9 @@ using experiment::TrialKey;
 
 constexpr int kTicksAtOnce = 20;
 constexpr int kFeelTicks = 900, kRaiseTicks = 400, kLowerTicks = 1500, kWaitTicks = 6000;
+constexpr int kGuideTicks = 120;  // the finger is still on its way
 constexpr int kAnswersShown = 14;
+constexpr int kNamesShown = 20;                   // of the second of eight runs
 constexpr std::array kWrongAnswers{3, 4, 7, 10};  // of those
 constexpr int kScreenFrames = 4;                  // in which ImGui lays out
 
@@ -89,6 +91,24 @@ class StagedExperiment {
       }
     }
   }
+  /// Practice, and objects until so many are named, each by its own key.
+  void name(int count) {
+    feel();
+    raise_and_press({TrialKey::enter});
+    for (wait_for(Phase::explore); trials_->answers() < count && phase() == Phase::explore; wait_for(Phase::explore)) {
+      feel();
+      trials_->press(experiment::digit_key(name_key()));
+    }
+  }
+  void wait_for(Phase wanted) {
+    for (int ticks = 0; phase() != wanted && ticks < kWaitTicks; ticks += kTicksAtOnce) run(kTicksAtOnce);
+  }
+  int name_key() const {
+    const experiment::Identification& design = *facts_.protocol.identification();
+    const auto number = experiment::participant_number(facts_.participant).value_or(0);
+    const auto trials = experiment::object_trials(design, number, kSeed);
+    return 1 + static_cast<int>(trials[static_cast<std::size_t>(trials_->answers())].object);
+  }
   TrialKey answer_key() const {
     const int trial = trials_->answers();
     const auto number = experiment::participant_number(facts_.participant).value_or(0);
@@ -121,14 +141,20 @@ struct ExperimentView {
   const char* shows;
   const char* protocol;
   bool of_operator;
-  Phase phase;  ///< that is shown
+  Phase phase;    ///< that is shown
+  int named = 0;  ///< objects before it
 };
-constexpr std::array<ExperimentView, 4> kExperimentViews{
+constexpr std::array<ExperimentView, 6> kExperimentViews{
     {{"experiment-operator", "an experiment's screen for the operator, half way through a staircase", "discrimination",
       true, Phase::first},
      {"experiment-participant", "the participant's at the same time: no scene", "discrimination", false, Phase::second},
      {"experiment-naming", "the participant's where objects are named: no scene", "identification", false,
       Phase::explore},
+     {"experiment-guide",
+      "the participant's on the way to the start: the finger is drawn to it, nothing else is in view", "identification",
+      false, Phase::guide},
+     {"experiment-naming-operator", "the operator's where objects are named, in the second run", "identification", true,
+      Phase::explore, kNamesShown},
      {"experiment-practice", "the participant's in practice, with the object in view", "identification", false,
       Phase::training}}};
 
@@ -142,12 +168,11 @@ void go_to(StagedExperiment& staged, const ExperimentView& view) {
     staged.feel();
     staged.raise_and_press({TrialKey::enter});
   }
+  if (view.phase == Phase::explore) staged.name(view.named);
   staged.feel();
-  if (view.phase != Phase::explore) return;
+  if (view.phase != Phase::guide) return;
   staged.raise_and_press({TrialKey::enter});
-  for (int ticks = 0; staged.phase() != Phase::explore && ticks < kWaitTicks; ticks += kTicksAtOnce)
-    staged.run(kTicksAtOnce);
-  staged.feel();
+  staged.run(kGuideTicks);
 }
 
 Image draw_operator(OffscreenScreen& offscreen, StagedExperiment& staged, const ShotRequest& request, Theme theme) {

@@ -46,6 +46,31 @@ TEST_CASE("of a pair the key that is chosen is marked, and how many pairs will c
   CHECK(screen.of == 0);
 }
 
+TEST_CASE("practice and the end have no number of a trial") {
+  experiment::ParticipantView view;
+  view.trial = 3;
+  view.of = 112;
+  for (const experiment::Phase phase : {experiment::Phase::training, experiment::Phase::finished}) {
+    view.phase = phase;
+    CHECK(participant_screen(view, shipped("identification"), 0).trial == 0);
+  }
+  view.phase = experiment::Phase::guide;
+  CHECK(participant_screen(view, shipped("identification"), 0).trial == 3);
+}
+
+TEST_CASE("the way to the start is drawn as the person has it: forward is away, the left is left") {
+  experiment::ParticipantView view;
+  view.phase = experiment::Phase::guide;
+  view.show_finger = true;
+  view.finger_from_start_m = {0.010, 0.020, -0.030};  // world: forward, left, down
+  const ParticipantScreen screen = participant_screen(view, shipped("identification"), 0);
+  CHECK(screen.show_mark);
+  CHECK(screen.away_mm == doctest::Approx(10.0));
+  CHECK(screen.right_mm == doctest::Approx(-20.0));
+  CHECK(screen.up_mm == doctest::Approx(-30.0));
+  CHECK(screen.mark_mm == doctest::Approx(5.0));
+}
+
 TEST_CASE("stages follow the participant's order, and runs fill one after the other") {
   const auto conditions = experiment_stages(shipped("discrimination"), "P7", "C1", 5, 40);
   REQUIRE(conditions.size() == 4);
