@@ -32,7 +32,7 @@ struct Clearance {
       -1.0;               ///< up to here no triangle outside the tracked basin and the watched ones holds a contact ...
   double height_m = 0.0;  ///< ... of a rank below this
   /// The look-ahead, a ball that lies further on in the direction in which the finger moves: outside it nothing is
-  /// known of triangles that are not watched. For a finger that is not round it is the one about `centre`.
+  /// known of triangles that are not watched. For a finger that is not round distances from it, too, count turning.
   Vec3 ahead_centre{0.0};
   double ahead_m = -1.0;
   double ahead_height_m = 0.0;  ///< what ranks behind this at ahead_centre was not looked at

@@ -49,6 +49,13 @@ Support capsule_support(const Finger& finger, const FingerPose& pose, const Vec3
   return support;
 }
 
+Vec3 capsule_support_point(const Finger& finger, const FingerPose& pose, const Vec3& normal) {
+  const Vec3 axis = pose.orientation * Vec3(1.0, 0.0, 0.0);
+  const double along = glm::dot(axis, normal), s2 = kSpindle * kSpindle;
+  const Vec3 gradient = along * axis + s2 * normal;
+  return pose.position - finger.radius_m * normal - (finger.half_length_m / std::sqrt(along * along + s2)) * gradient;
+}
+
 /// Arc of the ellipse (a sin t, -c cos t) from t = 0, by Legendre's incomplete integral of the second kind.
 double ellipse_arc(double a, double c, double t) {
   if (a <= 0.0 || c <= 0.0) return std::max(a, c) * std::sin(t);
@@ -112,6 +119,7 @@ Support support_with_derivative(const Finger& finger, const FingerPose& pose, co
 
 Vec3 support_point(const Finger& finger, const FingerPose& pose, const Vec3& normal) {
   if (finger.shape == FingerShape::ellipsoid) return ellipsoid_support_point(finger, pose, normal);
+  if (finger.shape == FingerShape::capsule) return capsule_support_point(finger, pose, normal);
   return support_with_derivative(finger, pose, normal).point;
 }
 

@@ -33,6 +33,9 @@ class FingerCore {
   /// `turns`: whether it may turn on its way; otherwise it goes straight.
   FingerCore(const Finger& finger, const FingerPose& pose, bool turns = true);
 
+  /// Without turning.
+  void move_to(const Vec3& centre) { centre_ = centre; }
+
   double ball_m() const { return ball_m_; }
   /// How fast the depth of any plane changes while the finger turns, m per rad at most: the unroundness.
   double lever_m() const { return lever_m_; }

@@ -22,6 +22,11 @@ void recentre(Clearance& known, const FingerPose& pose, double gone) {
     known.ahead_centre = pose.position;
     known.ahead_m -= gone;
     known.ahead_height_m -= gone;
+  } else {  // the turning is counted from here on
+    const Vec3 d = pose.position - known.centre;
+    const double turned = gone - std::sqrt(glm::dot(d, d));
+    known.ahead_m -= turned;
+    known.ahead_height_m -= turned;
   }
   known.centre = pose.position;
   known.orientation = pose.orientation;

@@ -24,11 +24,11 @@ inline double gone_m(const Clearance& known, const Finger& finger, const FingerP
   return centre_m + turned_m(finger, known.orientation, pose.orientation);
 }
 
-/// The same from the middle of the look-ahead.
+/// The same from the middle of the look-ahead, which it has reached without turning.
 inline double gone_ahead_m(const Clearance& known, const FingerPose& pose, double gone) {
   if (known.ahead_centre == known.centre) return gone;
-  const Vec3 d = pose.position - known.ahead_centre;
-  return std::sqrt(glm::dot(d, d));
+  const Vec3 d = pose.position - known.ahead_centre, from = pose.position - known.centre;
+  return std::sqrt(glm::dot(d, d)) + (gone - std::sqrt(glm::dot(from, from)));
 }
 
 /// Whether a search of everything is called for: a finger at `pose`, `gone` from known.centre, may have come to what

@@ -443,6 +443,14 @@ bool is_steady_for_core(const ContactQuery& q, double least, const NormalCone& n
   return (core.flattest_near(normals, q.margin_m) - less) * least > kSteadyRoom - 1.0;
 }
 
+bool may_be_steady_for_core(const ContactQuery& q, double least, const PnPatch& patch) {
+  constexpr double kRoom = 1e-5;  // far above what the tree's floats are rounded by
+  NormalSet set;
+  for (const Vec3& n : patch.normals) set.add(n);
+  const Cone cone = set.cone();
+  return is_steady_for_core(q, least + kRoom * std::abs(least), {cone.axis, std::min(1.0, cone.cos_half + kRoom)});
+}
+
 bool ContactHierarchy::misses(const Rim& rim, const Node& node, const ContactQuery& q) {
   if (q.core) return false;
   const Vec3 low(node.min[0], node.min[1], node.min[2]), high(node.max[0], node.max[1], node.max[2]);
@@ -461,17 +469,19 @@ bool ContactHierarchy::touchable(const Node& node, const ContactQuery& q, double
   const Vec3 low(node.min[0], node.min[1], node.min[2]), high(node.max[0], node.max[1], node.max[2]);
   const NormalCone normals = normals_of(node);
   const SurfaceBounds part{0.5 * (low + high), 0.5 * (high - low), normals};
-  const double way_to_it = way_to_face(*q.core, part);
-  if (way_to_it > q.margin_m) return false;
   const bool here = q.margin_m == 0.0 || q.steady_only || is_steady_for_core(q, node.least_curvature, normals);
+  const bool is_led = !here && q.core_ahead;
+  const FingerCore& core = is_led ? *q.core_ahead : *q.core;
   const double way = here ? 0.0 : q.margin_m;
-  if (way_to_it > way) return false;
+  if (way_to_face(core, part) > way) return false;
+  // No rank changes by more than the finger goes.
+  const double nearest = is_led ? q.nearest_m - std::sqrt(glm::dot(q.ahead, q.ahead)) : q.nearest_m;
   // Boxes that are no further off than that can't be so far outside.
-  const double far = std::max(way, q.core->outside_at(q.nearest_m - q.core->lever_m()));
-  const double farther = far + q.core->inner_m();
-  if (box2 > farther * farther && q.core->apart_m(part.middle, part.half) > far) return false;
-  const double most = most_lambda_m(*q.core, q.nearest_m);
-  return can_touch(*q.core, part, most, way);
+  const double far = std::max(way, core.outside_at(nearest - core.lever_m()));
+  const double farther = far + core.inner_m();
+  const double led = q.nearest_m - nearest;
+  if (std::sqrt(box2) > farther - led && core.apart_m(part.middle, part.half) > far) return false;
+  return can_touch(core, part, most_lambda_m(core, nearest), way);
 }
 
 void limit_query(ContactQuery& query, const Finger& finger, double rank) {

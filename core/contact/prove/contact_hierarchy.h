@@ -22,6 +22,7 @@
 #include "core/base/tolerances.h"
 #include "core/finger/finger_core.h"
 #include "core/mesh/contact_mesh.h"
+#include "core/surface/pn_patch.h"
 
 #include <algorithm>
 #include <array>
@@ -62,6 +63,7 @@ struct ContactQuery {
   Box region;
   /// Of a finger that is not round, at its pose: rules out more than tilt_rad does. Null: none.
   const FingerCore* core = nullptr;
+  const FingerCore* core_ahead = nullptr;  ///< the same in the middle of the look-ahead, where `ahead` is not 0
   double here_m = 0.0;  ///< set for the visitor: the margin that its triangle is asked for, margin_m or 0
   SearchPart part = SearchPart::whole;  ///< set for the visitor: what of its triangle is asked for
 };
@@ -74,6 +76,8 @@ inline bool is_steady(const ContactQuery& query, double least, double greatest) 
 /// The same for a finger that is not round, of ground with these normals. Contacts deeper than its sharpest radius
 /// don't count (core_proof.h: can_ask_steady).
 bool is_steady_for_core(const ContactQuery& query, double least, const NormalCone& normals);
+/// Of a patch, by its own normals: true wherever the tree, which has rounded bounds of them, may take it for steady.
+bool may_be_steady_for_core(const ContactQuery& query, double least, const PnPatch& patch);
 
 /// Bounds of a query that shall only see contacts of a rank below `rank` (contact_rank.h).
 void limit_query(ContactQuery& query, const Finger& finger, double rank);

@@ -138,21 +138,31 @@ double vertex_margin(ContactContext& context, const FingerCore& core, std::uint3
 
 }  // namespace
 
-double exclude_features_by_core(ContactContext& context, const FingerCore& core, const TriangleFeatures& features,
-                                const RankBound& bound) {
+FeatureExclusion exclude_features_by_core(ContactContext& context, const FingerCore& core,
+                                          const TriangleFeatures& features, const RankBound& bound,
+                                          const FeatureMemory* memory) {
   const ContactMesh& mesh = context.cache.mesh();
   const std::uint32_t t = features.triangle;
-  double margin = std::numeric_limits<double>::max();
-  for (std::uint32_t k = 0; k < 3 && margin > 0.0; ++k) {
+  FeatureExclusion result;
+  result.margin_m = std::numeric_limits<double>::max();
+  const auto ask = [&](std::uint64_t key, auto margin) {
+    if (memory && memory->knows(key)) return;
+    result.asked[result.asked_count++] = key;
+    result.margin_m = std::min(result.margin_m, margin());
+    if (!(result.margin_m > 0.0)) result.unproved = key;
+  };
+  for (std::uint32_t k = 0; k < 3 && result.margin_m > 0.0; ++k) {
     if (!features.has_side(k) || mesh.edge_kind(t, k) == EdgeKind::smooth) continue;
-    if (mesh.edge_kind(t, k) == EdgeKind::boundary) return 0.0;
-    const Crease crease = crease_of(context.cache, context.settings.normal_form, t, k);
-    if (!is_hollow(crease)) margin = std::min(margin, edge_margin(crease, core, bound));
+    ask(edge_key(mesh, t, k), [&] {
+      if (mesh.edge_kind(t, k) == EdgeKind::boundary) return 0.0;
+      const Crease crease = crease_of(context.cache, context.settings.normal_form, t, k);
+      return is_hollow(crease) ? std::numeric_limits<double>::max() : edge_margin(crease, core, bound);
+    });
   }
-  for (std::uint32_t k = 0; k < 3 && margin > 0.0; ++k)
+  for (std::uint32_t k = 0; k < 3 && result.margin_m > 0.0; ++k)
     if (features.has_corner(k) && mesh.feature_corner(t, k))
-      margin = std::min(margin, vertex_margin(context, core, t, k, bound));
-  return margin;
+      ask(vertex_key(mesh, t, k), [&] { return vertex_margin(context, core, t, k, bound); });
+  return result;
 }
 
 }  // namespace tangent

@@ -3,15 +3,28 @@
 
 #include "core/contact/contact_rank.h"
 #include "core/contact/context.h"
+#include "core/contact/prove/face_proof.h"
 #include "core/contact/prove/feature_proof.h"
 #include "core/finger/finger_core.h"
 
+#include <array>
+#include <cstdint>
+
 namespace tangent {
 
-/// How far the finger may go, as gone_m counts, until a contact of a rank under `bound` on these creases or on their
-/// ends can come up; the largest double where there are none, 0 where one may be there now, and on boundaries,
-/// of which nothing is proved.
-double exclude_features_by_core(ContactContext& context, const FingerCore& core, const TriangleFeatures& features,
-                                const RankBound& bound);
+struct FeatureExclusion {
+  /// How far the finger may go, as gone_m counts, until a contact can come up on the features that were asked; the
+  /// largest double where there are none, 0 where one may be there now, and on boundaries, of which nothing is proved.
+  double margin_m = 0.0;
+  std::uint64_t unproved = PatchExclusion::kNoFeature;  ///< where that is 0: the first of which nothing is proved
+  std::array<std::uint64_t, 6> asked{};                 ///< what FeatureMemory calls them
+  std::size_t asked_count = 0;
+};
+
+/// Asks the creases and boundaries and their ends for contacts of a rank under `bound`, but for those that `memory`
+/// knows.
+FeatureExclusion exclude_features_by_core(ContactContext& context, const FingerCore& core,
+                                          const TriangleFeatures& features, const RankBound& bound,
+                                          const FeatureMemory* memory = nullptr);
 
 }  // namespace tangent

@@ -209,15 +209,39 @@ PatchExclusion exclude_face_by_core(ContactContext& context, const FingerCore& c
   return exclude_pieces(context, context.cache.patch(t, context.settings.normal_form), core, bound, enough_m);
 }
 
+static void remember(FeatureMemory* memory, const FeatureExclusion& features) {
+  if (!memory) return;
+  for (const std::uint64_t key : std::span(features.asked).first(features.asked_count)) memory->add(key);
+}
+
 PatchExclusion exclude_by_core(ContactContext& context, const FingerCore& core, std::uint32_t t, const RankBound& bound,
-                               double enough_m) {
+                               double enough_m, FeatureMemory* memory) {
   const ContactMesh& mesh = context.cache.mesh();
   if (mesh.interior(t)) return exclude_face_by_core(context, core, t, bound, enough_m);
-  const double features = exclude_features_by_core(context, core, {t}, bound);
-  if (!(features > 0.0)) return no_proof(context, core, t);
+  const FeatureExclusion features = exclude_features_by_core(context, core, {t}, bound, memory);
+  if (!(features.margin_m > 0.0)) {
+    PatchExclusion nothing = no_proof(context, core, t);
+    nothing.feature = features.unproved;
+    return nothing;
+  }
   PatchExclusion proof = exclude_face_by_core(context, core, t, bound, enough_m);
-  proof.margin_m = std::min(proof.margin_m, features);
+  if (!proof.possible && proof.margin_m > 0.0) remember(memory, features);
+  proof.margin_m = std::min(proof.margin_m, features.margin_m);
   return proof;
+}
+
+bool core_excludes_at_a_glance(ContactContext& context, const FingerCore& core, std::uint32_t t, const RankBound& bound,
+                               double enough_m, FeatureMemory* memory) {
+  FeatureExclusion features;
+  if (!context.cache.mesh().interior(t)) {
+    features = exclude_features_by_core(context, core, {t}, bound, memory);
+    if (features.margin_m < enough_m) return false;
+  }
+  const PatchPiece whole(context.cache.patch(t, context.settings.normal_form));
+  const PieceLook look = look_at_piece(whole, core, bound, enough_m, false);
+  if (look.proof.possible || look.proof.margin_m < enough_m) return false;
+  remember(memory, features);
+  return true;
 }
 
 bool can_ask_steady(const FingerCore& core, double rank_m) {

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 
 namespace tangent {
 
@@ -27,6 +28,9 @@ struct PatchExclusion {
   /// (u, v) is a place to start from for a contact on the triangle's edges; one inside the face may be near these.
   bool also_inside = false;
   double inside_u = 0.0, inside_v = 0.0;
+  /// Of fingers that are not round: the edge or vertex of which nothing is proved (FeatureMemory).
+  static constexpr std::uint64_t kNoFeature = ~std::uint64_t{0};
+  std::uint64_t feature = kNoFeature;
   bool unsure = false;  ///< besides that contact there may be others, of which nothing is known
 
   /// A stable contact may be there.

@@ -191,12 +191,11 @@ static double vertex_pull(const ContactMesh& mesh, std::uint32_t t, std::uint32_
   return strongest;
 }
 
-/// Names of an edge, the same from both its triangles, and of a vertex.
-static std::uint64_t edge_key(const ContactMesh& mesh, std::uint32_t t, std::uint32_t k) {
+std::uint64_t edge_key(const ContactMesh& mesh, std::uint32_t t, std::uint32_t k) {
   const EdgeLink other = mesh.across(t, k);
   return other.triangle < t ? std::uint64_t{other.triangle} << 2 | other.edge : std::uint64_t{t} << 2 | k;
 }
-static std::uint64_t vertex_key(const ContactMesh& mesh, std::uint32_t t, std::uint32_t k) {
+std::uint64_t vertex_key(const ContactMesh& mesh, std::uint32_t t, std::uint32_t k) {
   return std::uint64_t{mesh.vertex(t, k)} << 2 | 3u;
 }
 

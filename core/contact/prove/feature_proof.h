@@ -38,6 +38,10 @@ class FeatureMemory {
   std::array<std::uint64_t, kSlots> seen_;
 };
 
+/// Names of an edge, the same from both its triangles, and of a vertex.
+std::uint64_t edge_key(const ContactMesh& mesh, std::uint32_t t, std::uint32_t k);
+std::uint64_t vertex_key(const ContactMesh& mesh, std::uint32_t t, std::uint32_t k);
+
 /// The creases and boundaries of a triangle and their ends, or one of them.
 struct TriangleFeatures {
   std::uint32_t triangle;

@@ -89,7 +89,7 @@ PatchExclusion exclude_side(ContactContext& context, const PartOfTriangle& part,
   proof.margin_m = is_round(context.finger)
                        ? exclude_feature_contacts(context.cache, side, context.settings.normal_form,
                                                   context.pose.position, bound, enough_m, memory)
-                       : exclude_features_by_core(context, *context.core, side, bound);
+                       : exclude_features_by_core(context, *context.core, side, bound).margin_m;
   if (proof.margin_m > 0.0) proof.possible = false;
   return proof;
 }
@@ -134,7 +134,7 @@ bool excludes_at_a_glance(ContactContext& context, std::uint32_t t, const RankBo
 PatchExclusion exclude_triangle(ContactContext& context, std::uint32_t t, const RankBound& bound, double enough_m,
                                 FeatureMemory* memory) {
   const ContactMesh& mesh = context.cache.mesh();
-  if (!is_round(context.finger)) return exclude_by_core(context, *context.core, t, bound, enough_m);
+  if (!is_round(context.finger)) return exclude_by_core(context, *context.core, t, bound, enough_m, memory);
   PatchExclusion proof = exclude_face(context, t, bound, enough_m);
   if (mesh.interior(t)) return proof;
   const double features = exclude_feature_contacts(context.cache, {t}, context.settings.normal_form,

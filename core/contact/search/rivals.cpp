@@ -310,8 +310,10 @@ class RivalSearch {
   }
 
   bool excludes_ahead(std::uint32_t t) {
+    const RankBound bound{ahead_bound_m_, closing_};
+    if (core_) return core_excludes_at_a_glance(context_, *core_ahead_, t, bound, ahead_m_, &features_ahead_);
     ContactContext there{context_.cache, settings_, context_.finger, ahead_pose_, context_.origin};
-    return excludes_at_a_glance(there, t, {ahead_bound_m_, closing_}, ahead_m_, &features_ahead_);
+    return excludes_at_a_glance(there, t, bound, ahead_m_, &features_ahead_);
   }
 
   /// Ground that leads to a known contact. Steady ground does so for good, other ground as far as a look-ahead goes.
@@ -342,12 +344,13 @@ class RivalSearch {
   }
 
   bool meets_steady_ground(std::uint32_t t, const ContactQuery& q) {
-    if (core_) return true;
     for (std::uint32_t k = 0; k < 3; ++k) {
       const std::uint32_t other = context_.cache.mesh().across(t, k).triangle;
       if (other == kNone) continue;
       const CurvatureBounds& bend = context_.cache.bend(other, settings_.normal_form);
-      if (is_steady(q, bend.least, bend.greatest)) return true;
+      if (core_ ? may_be_steady_for_core(q, bend.least, context_.cache.patch(other, settings_.normal_form))
+                : is_steady(q, bend.least, bend.greatest))
+        return true;
     }
     return false;
   }
@@ -377,7 +380,7 @@ class RivalSearch {
   /// From here to the middle of the look-ahead: a finger mostly goes on as it has come.
   Vec3 lead() const {
     const double moved = context_.moved_m;
-    if (core_ || !(moved > 0.0) || moved >= kLargestWatch * std::abs(tracked_rank_m_)) return Vec3(0.0);
+    if (!(moved > 0.0) || moved >= kLargestWatch * std::abs(tracked_rank_m_)) return Vec3(0.0);
     return std::min(kLead * margin_m_ / moved, kLeadTicks) * context_.moved;
   }
 
@@ -389,6 +392,10 @@ class RivalSearch {
     ahead_pose_.position = context_.pose.position + q.ahead;
     ahead_m_ = ahead == Vec3(0.0) ? 0.0 : q.margin_m;
     ahead_bound_m_ = bound_m_ + (closing_ - 1.0) * std::sqrt(glm::dot(q.ahead, q.ahead));
+    if (!core_ || ahead_m_ == 0.0) return;
+    core_ahead_ = *core_;
+    core_ahead_->move_to(ahead_pose_.position);
+    q.core_ahead = &*core_ahead_;
   }
 
   /// There a triangle without a contact, deeper or not yet, stays without until one comes in over the border.
@@ -449,7 +456,9 @@ class RivalSearch {
       // Beside a fold a solve may run past a contact, or where one is about to come up, to the tracked one.
       const bool ran_past = interior && r.plane.triangle != part.triangle &&
                             !(is_beside(proof, r.plane.point) && (core_ || is_as_high(proof, r.contact.height_m)));
-      return ran_past ? Look{kUnresolvedMargin * slope_m_, true, true} : own_slope(enough_m);
+      if (ran_past) return {kUnresolvedMargin * slope_m_, true, true};
+      if (proof.feature != PatchExclusion::kNoFeature) features_.add(proof.feature);  // seen from others it is the same
+      return own_slope(enough_m);
     }
     remember(r.plane, r.contact);
     const double rank = contact_rank(context_.finger, r.contact);
@@ -495,8 +504,8 @@ class RivalSearch {
   SolverSettings settings_;
   double tracked_rank_m_;
   bool tracked_is_even_ = false;
-  bool steady_;                     ///< contacts are followed over steady ground
-  std::optional<FingerCore> core_;  ///< of a finger that is not round
+  bool steady_;                                  ///< contacts are followed over steady ground
+  std::optional<FingerCore> core_, core_ahead_;  ///< of a finger that is not round; in the middle of the look-ahead
   ContactContext context_;
   HeightChange change_;    ///< of the tracked contact
   FingerPose ahead_pose_;  ///< the middle of the look-ahead, its radius (0: it is about the finger), what counts there

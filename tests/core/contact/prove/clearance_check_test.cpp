@@ -83,6 +83,35 @@ TEST_CASE("a look-ahead lies ahead of the finger, and stays there when the watch
   check();
 }
 
+TEST_CASE("from a look-ahead that lies ahead of a finger that is not round its turning counts, too") {
+  Finger ellipsoid;
+  ellipsoid.shape = FingerShape::ellipsoid;  // reach 20 mm
+  Clearance known;
+  known.margin_m = 2e-3;
+  known.height_m = 0.02;
+  known.ahead_centre = Vec3(8e-4, 0.0, 0.0);
+  known.ahead_m = 1e-3;
+  known.ahead_height_m = 0.0215;
+  set_free(known);
+  const auto turned = [](double way_m) { return glm::angleAxis(way_m / 0.020, Vec3(0.0, 0.0, 1.0)); };
+  const auto possible = [&](const Vec3& at, double turned_m) {
+    const FingerPose pose{at, turned(turned_m)};
+    return deeper_possible(known, pose, gone_m(known, ellipsoid, pose), 0.0);
+  };
+  const auto check = [&] {
+    CHECK(!possible(Vec3(8e-4, 0.0, 0.0), 0.9e-3));
+    CHECK(possible(Vec3(8e-4, 0.0, 0.0), 1.1e-3));
+    CHECK(!possible(Vec3(1.2e-3, 0.0, 0.0), 0.5e-3));
+    CHECK(possible(Vec3(1.2e-3, 0.0, 0.0), 0.7e-3));
+  };
+  check();
+  const FingerPose here{Vec3(1e-4, 0.0, 0.0), turned(2e-4)};
+  recentre(known, here, gone_m(known, ellipsoid, here));
+  CHECK(known.ahead_m == doctest::Approx(0.8e-3).epsilon(1e-6));
+  CHECK(known.ahead_height_m == doctest::Approx(0.0213).epsilon(1e-6));
+  check();
+}
+
 TEST_CASE("nothing is known before the first search") { CHECK(deeper_possible(Clearance{}, FingerPose{}, 0.0, -1.0)); }
 
 TEST_CASE("unlimited clearance stays so") {

@@ -4,6 +4,7 @@
 
 #include "core/base/tolerances.h"
 #include "core/contact/prove/clearance_check.h"
+#include "core/contact/prove/contact_hierarchy.h"
 #include "core/contact/prove/core_feature_proof.h"
 #include "core/contact/prove/linear_core.h"
 #include "tests/core/fingers.h"
@@ -220,6 +221,32 @@ TEST_CASE("no contact of an ellipsoid or a capsule comes up on a face within the
   }
 }
 
+TEST_CASE("a glance from a core that lies ahead excludes no contact of an ellipsoid or a capsule within its reach") {
+  Random random(76);
+  const ContactMesh mesh = *ContactMesh::build(make_icosphere(0.010, 2));
+  for (const FingerShape shape : kCoreShapes) {
+    CAPTURE(static_cast<int>(shape));
+    std::uint32_t t = 0;
+    const double excluded = share_proved(
+        mesh, shape, rounds(4000), 4e-3, random,
+        [&](PatchCache& cache) {
+          t = random.below(mesh.triangle_count());
+          const Vec2 at = random.barycentric();
+          SurfaceSample s;
+          cache.sample(t, NormalForm::bernstein, at.x, at.y, s);
+          return std::pair(s.point, s.normal);
+        },
+        [&](ContactContext& context, const FingerCore& core) {
+          FingerCore own = core;
+          own.move_to(core.centre() + 1e-3 * random.direction());  // the finger itself is elsewhere
+          context.core = &own;
+          const double enough = random.in(1e-5, 1e-3);
+          return core_excludes_at_a_glance(context, core, t, kAnyRank, enough, nullptr) ? enough : 0.0;
+        });
+    CHECK(excluded > 0.01);
+  }
+}
+
 TEST_CASE("where a face holds a contact of an ellipsoid or a capsule its rank is that of a contact there, or unknown") {
   Random random(75);
   for (const FingerShape shape : kCoreShapes) {
@@ -279,7 +306,7 @@ TEST_CASE("no contact of an ellipsoid or a capsule comes up on a crease or a ver
           }
         },
         [&](ContactContext& context, const FingerCore& core) {
-          return exclude_features_by_core(context, core, {t}, up_to_them(shape));
+          return exclude_features_by_core(context, core, {t}, up_to_them(shape)).margin_m;
         });
     CHECK(on_edges > 0.01);
     const double on_vertices = share_proved(
@@ -294,8 +321,44 @@ TEST_CASE("no contact of an ellipsoid or a capsule comes up on a crease or a ver
           return std::pair(mesh.position(t, k), unit(normal));
         },
         [&](ContactContext& context, const FingerCore& core) {
-          return exclude_features_by_core(context, core, {t}, up_to_them(shape));
+          return exclude_features_by_core(context, core, {t}, up_to_them(shape)).margin_m;
         });
     CHECK(on_vertices > 0.01);
+  }
+}
+
+TEST_CASE("ground that the tree takes for steady under an ellipsoid or a capsule is steady by its patch, too") {
+  Random random(78);
+  PolygonMesh body = make_icosphere(0.036, 3);
+  for (Vec3& p : body.positions) p *= 1.0 + 0.03 * std::sin(200.0 * p.x) + 0.03 * std::sin(230.0 * p.y);
+  body.normals.clear();
+  body.corner_normal.clear();
+  const ContactMesh mesh = *ContactMesh::build(body);
+  const ContactHierarchy tree = ContactHierarchy::build(mesh);
+  for (const FingerShape shape : kCoreShapes) {
+    CAPTURE(static_cast<int>(shape));
+    PatchCache cache(mesh);
+    const Finger finger = finger_of(shape);
+    int steady = 0, wrong = 0;
+    for (int i = 0; i < rounds(50); ++i) {
+      const FingerPose pose{(0.036 + finger.reach_m()) * random.direction(), random.orientation()};
+      const FingerCore core(finger, pose);
+      ContactQuery query;
+      query.centre = pose.position;
+      query.core = &core;
+      query.steady_ground = query.steady_only = true;
+      query.region.include(Vec3(-1.0));
+      query.region.include(Vec3(1.0));
+      query.margin_m = random.in(0.0, 1e-3);
+      limit_query(query, finger, finger.reach_m() + 0.004);
+      tree.visit(query, [&](std::uint32_t t, ContactQuery& q) {
+        ++steady;
+        wrong += !may_be_steady_for_core(q, cache.bend(t, NormalForm::bernstein).least,
+                                         cache.patch(t, NormalForm::bernstein));
+        return true;
+      });
+    }
+    CHECK(steady > 0);
+    CHECK(wrong == 0);
   }
 }
