@@ -16,12 +16,17 @@ void PatchCache::ask_around(std::uint32_t t) {
   asked_ = t == around_ ? asked_ + 1 : 1;
   around_ = t;
   for (std::uint32_t edge = 0; edge < 3; ++edge) {
-    const EdgeLink other = mesh_->across(t, edge);
-    if (other.triangle == kNone) continue;
-    if (asked_ == 1) {
-      mesh_->prefetch(other.triangle);
-    } else {
-      mesh_->prefetch(other.triangle, (other.edge + 2) % 3);
+    const EdgeLink beside = mesh_->across(t, edge);
+    if (beside.triangle == kNone) continue;
+    if (asked_ == 1) mesh_->prefetch(beside.triangle, (beside.edge + 2) % 3);
+    for (std::uint32_t on = 1; on < 3; ++on) {
+      const EdgeLink next = mesh_->across(beside.triangle, (beside.edge + on) % 3);
+      if (next.triangle == kNone) continue;
+      if (asked_ == 1) {
+        mesh_->prefetch(next.triangle);
+      } else {
+        mesh_->prefetch(next.triangle, (next.edge + 2) % 3);
+      }
     }
   }
 }

@@ -88,7 +88,8 @@ class PatchCache {
     return slot.bend;
   }
   /// Says that the contact is on triangle `t`, once at a tick's beginning and once at its end: on a large mesh the
-  /// triangles beside it, which it goes to next, come from the processor's slow memory, so they are asked for before.
+  /// triangles beside it and those beside them, which it goes to next, come from the processor's slow memory, so they
+  /// are asked for before.
   void expect_around(std::uint32_t t) {
     if (is_large_ && t != kNone && (t != around_ || asked_ < 2)) ask_around(t);
   }
@@ -155,7 +156,9 @@ class PatchCache {
   static constexpr std::uint32_t kLarge = 1u << 16;  ///< triangles that no fast memory holds: some 5 MB
   bool is_large_;
   std::uint32_t around_ = kNone;
-  int asked_ = 0;  ///< of the triangles around that one: 1: their numbers, 2: the places of their far corners, too
+  /// 1: for the far corners of the triangles beside that one, and the numbers of those beside them; 2: for the far
+  /// corners of these, too.
+  int asked_ = 0;
 };
 
 template <class Direction, class OnFace, class OnRay>

@@ -57,6 +57,10 @@ void begin_change(RenderedState& state) {
   state.changes = state.force_fades = state.display_fades = 1;
 }
 
+bool holds_off_pad(const Preset& preset) {
+  return preset.force.blend == ForceBlend::events && display_rule(preset) == 0.0;
+}
+
 double most_force_change_n(const Preset& preset, const FingerWay& way) {
   return kForceFade * way.dt_s + 2.0 * preset.force.stiffness_n_per_m * std::sqrt(glm::dot(way.moved, way.moved));
 }

@@ -35,14 +35,18 @@ void begin_change(RenderedState& state);
 
 /// Of the finger since the last tick.
 struct FingerWay {
-  Vec3 moved{0.0};    ///< world, m
-  double dt_s = 0.0;  ///< 0: none, or not known
+  Vec3 moved{0.0};        ///< world, m
+  double dt_s = 0.0;      ///< 0: none, or not known
+  bool over_gap = false;  ///< moved in more than dt_s: ticks between had no pose
 };
 
 /// Most by which force and display may change in a tick: by what the finger's motion explains, and at the rate of a
 /// fade.
 double most_force_change_n(const Preset& preset, const FingerWay& way);
 double most_display_change_m(const Preset& preset, const FingerWay& way);
+
+/// Whether the display stays where it is while the contact is off the pad.
+bool holds_off_pad(const Preset& preset);
 
 /// What a tick is to render, from what it decided to and what the last one rendered; updates `state`. Where the
 /// preset's force has edges of its own (facet, force shading, two-pass) only a change of preset fades, likewise its

@@ -24,7 +24,7 @@ Rendered render(const Preset& preset, const RenderPlane& force, const RenderPlan
     out.cld_m = tactile->share * display_position(preset.display, preset.finger, section, tactile->normal);
     out.off_pad = is_off_pad(section, tactile->normal);
   }
-  out.ramps_out = force.share < 1.0;
+  out.ramps_out = force.share < 1.0 && force.share != kRampWasOver;
   if (force.share > 0.0)
     out.force_n = force.share * contact_force(preset.force, force.normal, force.penetration_m, velocity);
   return out;

@@ -7,11 +7,15 @@
 
 namespace tangent {
 
+/// Share of a plane whose ramp was over before this tick: nothing to render, and what is still rendered, as after ticks
+/// that found no contact at all, is no part of that ramp. It fades like every decision.
+inline constexpr double kRampWasOver = -1.0;
+
 /// A plane in the world and how deep the finger is in it.
 struct RenderPlane {
   Vec3 normal;  ///< unit
   double penetration_m;
-  double share;  ///< 1; less while an unconverged tick ramps out; 0: nothing to render
+  double share;  ///< 1; less while an unconverged tick ramps out; 0 or kRampWasOver: nothing to render
 };
 
 /// Touched nowhere.

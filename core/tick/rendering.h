@@ -15,7 +15,8 @@ namespace tangent {
 /// Of the finger since the last tick; nothing where there was none. `position`: world, m.
 inline FingerWay finger_way(const Vec3& position, double t_s, const TickState& state) {
   if (!state.has_previous) return {};
-  return {position - state.last_position, t_s > state.last_t_s ? t_s - state.last_t_s : 0.0};
+  return {position - state.last_position, t_s > state.last_t_s ? t_s - state.last_t_s : 0.0,
+          state.has_previous == kPoseIsOlder};
 }
 
 /// World, m/s: the device's own where it has `measured` one, else of the positions by a first-order filter of the
@@ -26,6 +27,7 @@ inline Vec3 finger_velocity(const Preset& preset, const FingerWay& way, const st
                             RenderedState& rendered) {
   if (preset.force.damping_n_s_per_m == 0.0) return Vec3(0.0);
   if (measured && is_finite(*measured)) return rendered.velocity = *measured;
+  if (way.over_gap) return rendered.velocity;  // how long its way took is not known any more
   const double rate = 2.0 * std::numbers::pi * preset.force.velocity_cutoff_hz;
   const double lag = 1.0 / (1.0 + rate * way.dt_s);
   rendered.velocity = lag * (rendered.velocity + rate * way.moved);  // v += (1 - lag) (moved/dt - v)
@@ -49,6 +51,8 @@ inline void render_planes(const Preset& preset, const TickPlanes& planes, const 
     ramp_what_was_rendered(preset, way, force.share, display_ramps, rendered, decided);
   }
   const bool switched = out.event != TickEvent::none && out.event != TickEvent::first;
+  if (decided.off_pad && !decided.ramps_out && rendered.has && holds_off_pad(preset))
+    out.decided_cld_m = rendered.cld_m;  // its place says nothing: to stay is what is decided
   const Rendered blended = blend(preset, way, decided, switched, rendered);
   out.force_n = blended.force_n;
   out.cld_m = blended.cld_m;

@@ -38,6 +38,9 @@ void run_without_pose(const TickContext& tick, TickOutput& out) {
   const TickPlanes planes = TickPlanes::all(last_converged_plane(tick));
   const FingerWay way = finger_way(tick.pose.position, tick.t_s, tick.state);
   render_planes(tick.preset, planes, section_of(tick.pose.orientation), way, std::nullopt, tick.state.rendered, out);
+  if (!tick.state.has_previous || !std::isfinite(tick.t_s)) return;
+  tick.state.last_t_s = tick.t_s;  // time that a fade or a ramp has used is not used again
+  tick.state.has_previous = kPoseIsOlder;
 }
 
 FingerPose last_pose(const TickState& state) { return {state.last_position, Quat(1.0, 0.0, 0.0, 0.0)}; }

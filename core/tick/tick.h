@@ -41,6 +41,9 @@ struct ConvergedPlane {
   Vec3 normal{0.0, 0.0, 1.0};
 };
 
+/// TickState::has_previous where the ticks since last_position had no usable pose: last_t_s is the time of the last.
+inline constexpr std::uint8_t kPoseIsOlder = 2;
+
 /// Everything one tick hands to the next. Trivially copyable.
 struct TickState {
   TrackedPlane plane;             ///< feature none: nothing tracked yet
@@ -49,7 +52,7 @@ struct TickState {
   Vec3 last_position{0.0};        ///< finger position of the previous tick, world, m
   Quat last_orientation{1.0, 0.0, 0.0, 0.0};
   double last_t_s = 0.0;
-  std::uint8_t has_previous = 0;   ///< last_position, last_orientation and last_t_s are set
+  std::uint8_t has_previous = 0;   ///< last_position, last_orientation and last_t_s are set; kPoseIsOlder
   std::uint8_t has_converged = 0;  ///< there was a converged tick
   std::uint8_t has_proxy = 0;      ///< proxy is set
   std::uint8_t unentered = 0;      ///< the tracked place was found from behind: it does not push until it is left

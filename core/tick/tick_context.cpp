@@ -5,13 +5,16 @@
 namespace tangent {
 
 RenderPlane last_converged_plane(const TickContext& tick) {
+  const TickState& state = tick.state;
   RenderPlane plane = kNoPlane;
-  plane.share = 0.0;
-  if (!tick.state.has_converged || tick.state.unentered) return plane;
-  const ConvergedPlane& last = tick.state.last_converged;
+  plane.share = kRampWasOver;
+  if (!state.has_converged || state.unentered) return plane;
+  const ConvergedPlane& last = state.last_converged;
   plane.normal = last.normal;
   plane.penetration_m = contact_on_plane(tick.finger, tick.local, last.point, last.normal).penetration_m;
-  plane.share = unconverged_share(tick.preset.safety, tick.t_s - tick.state.last_converged_s);
+  const auto share_at = [&](double t_s) { return unconverged_share(tick.preset.safety, t_s - state.last_converged_s); };
+  plane.share = share_at(tick.t_s);
+  if (plane.share == 0.0 && state.has_previous && share_at(state.last_t_s) == 0.0) plane.share = kRampWasOver;
   return plane;
 }
 

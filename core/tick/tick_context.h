@@ -21,8 +21,8 @@ struct TickContext {
   const std::optional<Vec3>& velocity;  ///< of the finger, world, where the device measures it
 };
 
-/// The plane that an unconverged tick renders: the last converged one at the present pose, ramping to zero; share 0
-/// where there is none.
+/// The plane that an unconverged tick renders: the last converged one at the present pose, ramping to zero; share
+/// kRampWasOver where that is over, or there is none.
 RenderPlane last_converged_plane(const TickContext& tick);
 
 /// Keeps state.plane as the last converged one, touched `penetration_m` deep, and gives it for rendering in `plane`.

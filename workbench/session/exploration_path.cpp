@@ -1,10 +1,10 @@
 #include "workbench/session/exploration_path.h"
 
+#include "workbench/session/path_surface.h"
 #include "workbench/session/two_threads.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace tangent {
@@ -27,20 +27,6 @@ using Points = std::vector<Vec3>;
 std::size_t wrapped(std::ptrdiff_t i, std::size_t n) {
   const auto m = static_cast<std::ptrdiff_t>(n);
   return static_cast<std::size_t>(((i % m) + m) % m);
-}
-
-/// Sum of area vectors: about zero for a closed mesh, of about the whole area for a sheet.
-Vec3 mean_normal(const ContactMesh& mesh) {
-  Vec3 sum(0.0);
-  double area = 0.0;
-  for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
-    if (!mesh.usable(t)) continue;
-    const auto p = mesh.positions(t);
-    const Vec3 a = glm::cross(p[1] - p[0], p[2] - p[0]);
-    sum += a;
-    area += std::sqrt(glm::dot(a, a));
-  }
-  return area > 0.0 ? sum / area : Vec3(0.0);
 }
 
 /// A unit vector perpendicular to `up`, close to x where possible.
@@ -143,12 +129,11 @@ Points evenly(const Points& raw, double& spacing) {
   return points;
 }
 
-/// Of every point, on two threads: on millions of triangles a query takes 0.1 ms.
-std::vector<NearestHit> nearest_of(const NearestTriangles& nearest, const Points& points) {
+/// Of every point, on two threads.
+std::vector<NearestHit> nearest_of(const PathSurface& surface, const Points& points) {
   std::vector<NearestHit> hits(points.size());
   run_halves(run_on_two_threads, points.size(), [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i)
-      hits[i] = nearest.nearest(points[i], std::numeric_limits<double>::infinity());
+    for (std::size_t i = first; i < last; ++i) hits[i] = surface.nearest(points[i]);
   });
   return hits;
 }
@@ -156,11 +141,11 @@ std::vector<NearestHit> nearest_of(const NearestTriangles& nearest, const Points
 /// Moves the points onto the offset surface at distance `pad` from the mesh. A step towards the nearest triangle that
 /// is shorter than its distance crosses no surface, and smoothing between steps keeps neighbours together. Where the
 /// surface separates neighbours (two legs, a fold), resampling inserts points between them, which shrink on their own.
-Points shrink(const NearestTriangles& nearest, double pad, Points points, double& spacing) {
+Points shrink(const PathSurface& surface, double pad, Points points, double& spacing) {
   for (int round = 0; round < kShrinkRounds; ++round) {
     const bool late = 2 * round >= kShrinkRounds;
     const double pull = late ? 1.0 : 0.5;
-    const std::vector<NearestHit> hits = nearest_of(nearest, points);
+    const std::vector<NearestHit> hits = nearest_of(surface, points);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const NearestHit& hit = hits[i];
       Vec3& p = points[i];
@@ -209,17 +194,18 @@ ExplorationPath ExplorationPath::build(const ContactScene& scene, double pad_m) 
   // A point finger needs a minimum distance too: directions are computed from points off the surface.
   path.pad_m_ = std::max(pad_m, 0.02 * glm::length(box.size()));
 
-  const Vec3 facing = mean_normal(mesh);
+  const PathSurface surface(scene);
+  const Vec3 facing = surface.mean_normal();
   const bool sheet = glm::length(facing) > 0.5;
   const PlanarCurve* planar = scene.planar();
   Points raw = planar  ? along(*planar, path.pad_m_)
                : sheet ? over(box, unit(facing), path.pad_m_)
                        : around(box, path.pad_m_);
-  const Points centres = shrink(scene.nearest(), path.pad_m_, std::move(raw), path.spacing_m_);
+  const Points centres = shrink(surface, path.pad_m_, std::move(raw), path.spacing_m_);
 
   const std::size_t n = centres.size();
   Points outward(n), heading(n), short_of(n);
-  const std::vector<NearestHit> hits = nearest_of(scene.nearest(), centres);
+  const std::vector<NearestHit> hits = nearest_of(surface, centres);
   for (std::size_t i = 0; i < n; ++i) {
     const NearestHit& hit = hits[i];
     outward[i] = direction_or(hit ? centres[i] - hit.point : Vec3(0.0), i > 0 ? outward[i - 1] : Vec3(0, 0, 1));
