@@ -1,5 +1,6 @@
 #include "core/lab/audit/mesh_audit.h"
 
+#include "core/base/angle.h"
 #include "core/base/tolerances.h"
 #include "core/lab/audit/half_edges.h"
 #include "core/mesh/edge_table.h"
@@ -12,11 +13,6 @@
 
 namespace tangent {
 namespace {
-
-double angle_between(const Vec3& a, const Vec3& b) {  // atan2: exact near 0 and 180 degrees, where acos is not
-  const Vec3 x = glm::cross(a, b);
-  return std::atan2(std::sqrt(glm::dot(x, x)), glm::dot(a, b)) / kDegree;
-}
 
 /// Reorders `values`. The median of an even number of values is the upper one.
 MinMedianMax min_median_max(std::vector<double>& values) {
@@ -51,7 +47,7 @@ void audit_triangles(const ContactMesh& mesh, MeshAudit& out) {
       name_first(out.first_slivers, t);
     }
     for (std::uint32_t k = 0; k < 3; ++k) {
-      const double deg = angle_between(mesh.normal(t, k), twice / twice_area);
+      const double deg = angle_between_deg(mesh.normal(t, k), twice / twice_area);
       out.max_normal_to_face_deg = std::max(out.max_normal_to_face_deg, deg);
       if (deg > kWildNormalDeg) ++out.wild_normals;
       if (deg > 90.0) {
@@ -83,7 +79,7 @@ void audit_edges(const ContactMesh& mesh, MeshAudit& out) {
     const Vec3 side = position(m.to_vertex_handle(h)) - position(m.from_vertex_handle(h));
     lengths.push_back(std::sqrt(glm::dot(side, side)));
     if (m.is_boundary(edge)) continue;
-    dihedrals.push_back(angle_between(normal_of(m.face_handle(h)), normal_of(m.opposite_face_handle(h))));
+    dihedrals.push_back(angle_between_deg(normal_of(m.face_handle(h)), normal_of(m.opposite_face_handle(h))));
   }
   out.edge_length_m = min_median_max(lengths);
   out.dihedral_deg = min_median_max(dihedrals);

@@ -1,5 +1,6 @@
 #include "core/lab/audit/mesh_findings.h"
 
+#include "core/base/angle.h"
 #include "core/base/tolerances.h"
 #include "core/lab/audit/half_edges.h"
 #include "core/mesh/edge_table.h"
@@ -17,11 +18,6 @@ namespace {
 constexpr std::array<std::string_view, kFindingKindCount> kLabels{
     "Boundary loops", "Non-manifold edges", "Inconsistent edges", "Flipped normals", "Wild normals",
     "Slivers",        "Degenerate",         "Duplicates"};
-
-double angle_deg(const Vec3& a, const Vec3& b) {
-  const Vec3 x = glm::cross(a, b);
-  return std::atan2(std::sqrt(glm::dot(x, x)), glm::dot(a, b)) / kDegree;
-}
 
 Vec3 normal_or_up(const Vec3& a, const Vec3& b, const Vec3& c) {
   return is_degenerate(a, b, c) ? Vec3(0.0, 0.0, 1.0) : face_normal(a, b, c);
@@ -77,7 +73,8 @@ void find_bad_triangles(const ContactMesh& mesh, Collector& found) {
     const double aspect = longest_side2(a, b, c) / twice_area;
     if (aspect * kSliverAspect > 1.0) found.add(FindingKind::sliver, aspect, [&] { return at_triangle(mesh, t); });
     double widest = 0.0;
-    for (std::uint32_t k = 0; k < 3; ++k) widest = std::max(widest, angle_deg(mesh.normal(t, k), twice / twice_area));
+    for (std::uint32_t k = 0; k < 3; ++k)
+      widest = std::max(widest, angle_between_deg(mesh.normal(t, k), twice / twice_area));
     if (widest > 90.0)
       found.add(FindingKind::flipped_normal, widest, [&] { return at_triangle(mesh, t); });
     else if (widest > kWildNormalDeg)

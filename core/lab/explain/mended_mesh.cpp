@@ -1,5 +1,6 @@
 #include "core/lab/explain/mended_mesh.h"
 
+#include "core/base/angle.h"
 #include "core/base/tolerances.h"
 #include "core/contact/nearest_triangles.h"
 #include "core/mesh/triangle_shape.h"
@@ -14,11 +15,6 @@ namespace {
 constexpr int kRings = 6;
 constexpr std::size_t kMostTriangles = 400;
 constexpr double kShortSide = 0.05;  // of the longest: a sliver with a shorter one is a needle, else a low cap
-
-double angle_deg(const Vec3& a, const Vec3& b) {
-  const Vec3 x = glm::cross(a, b);
-  return std::atan2(std::sqrt(glm::dot(x, x)), glm::dot(a, b)) / kDegree;
-}
 
 std::vector<std::uint32_t> rings_around(const ContactMesh& mesh, std::span<const std::uint32_t> around) {
   std::vector<std::uint32_t> found(around.begin(), around.end());
@@ -168,7 +164,7 @@ class Copy {
     };
     each([&](CopiedTriangle& t, std::uint32_t k) {
       const Vec3 a = position(t.vertex[k]), b = position(t.vertex[(k + 1) % 3]), c = position(t.vertex[(k + 2) % 3]);
-      if (!is_degenerate(a, b, c)) mean += angle_deg(b - a, c - a) * face_normal(a, b, c);
+      if (!is_degenerate(a, b, c)) mean += angle_between_deg(b - a, c - a) * face_normal(a, b, c);
     });
     if (!(glm::dot(mean, mean) > 1e-12)) return;
     each([&](CopiedTriangle& t, std::uint32_t k) { t.normal[k] = unit(mean); });
@@ -222,7 +218,7 @@ double triangle_aspect(const ContactMesh& mesh, std::uint32_t t) {
 
 double corner_to_face_deg(const ContactMesh& mesh, std::uint32_t t, std::uint32_t corner) {
   const auto [a, b, c] = mesh.positions(t);
-  return angle_deg(mesh.normal(t, corner), face_normal(a, b, c));
+  return angle_between_deg(mesh.normal(t, corner), face_normal(a, b, c));
 }
 
 MendedScene mend_around(const ContactMesh& mesh, std::span<const std::uint32_t> around, Mend mend) {

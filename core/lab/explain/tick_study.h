@@ -1,6 +1,7 @@
 // A tick under study: solved again with a trace, what its iteration met, and what is found out about it.
 #pragma once
 
+#include "core/base/angle.h"
 #include "core/base/tolerances.h"
 #include "core/base/units.h"
 #include "core/lab/explain/tick_trials.h"
@@ -10,12 +11,6 @@
 #include <span>
 
 namespace tangent {
-
-/// Angle between two vectors, deg; exact near 0 and 180, where acos is not.
-inline double angle_between_deg(const Vec3& a, const Vec3& b) {
-  const Vec3 x = glm::cross(a, b);
-  return std::atan2(std::sqrt(glm::dot(x, x)), glm::dot(a, b)) / kDegree;
-}
 
 /// What the solver takes for a jump of the normal (kJumpCosine).
 inline constexpr double kJumpDeg = 10.0;

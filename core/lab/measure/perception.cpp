@@ -1,5 +1,6 @@
 #include "core/lab/measure/perception.h"
 
+#include "core/base/angle.h"
 #include "core/base/units.h"
 #include "core/mesh/triangle_shape.h"
 
@@ -9,11 +10,6 @@
 
 namespace tangent {
 namespace {
-
-double angle_between_deg(const Vec3& a, const Vec3& b) {  // atan2: exact near 0 and 180 degrees, where acos is not
-  const Vec3 x = glm::cross(a, b);
-  return std::atan2(std::sqrt(glm::dot(x, x)), glm::dot(a, b)) / kDegree;
-}
 
 Vec3 normal_of(const ContactMesh& mesh, std::uint32_t t) {
   const auto [a, b, c] = mesh.positions(t);

@@ -14,13 +14,14 @@ namespace tangent {
 
 namespace {
 
-constexpr auto kRelaxed = std::memory_order_relaxed;
 constexpr int kOpenTurn_ms = 5;                 ///< longest sleep while open
 constexpr int kClosedTurn_ms = 50;              ///< ... while waiting for the device
 constexpr std::int64_t kLook_ns = 500'000'000;  ///< between scans of the bus
 constexpr std::int64_t kDrain_ns = 2'000'000'000;
 
-void raise(std::atomic<std::uint64_t>& counter) noexcept { counter.store(counter.load(kRelaxed) + 1, kRelaxed); }
+void raise(std::atomic<std::uint64_t>& counter) noexcept {
+  counter.store(counter.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+}
 
 }  // namespace
 
@@ -148,7 +149,7 @@ void UsbLink::Impl::watch_hotplug() {
 
 void UsbLink::Impl::run() noexcept {
   pthread_setname_np(pthread_self(), "usb");
-  while (!stopping.load(kRelaxed)) {
+  while (!stopping.load(std::memory_order_relaxed)) {
     if (!handle) try_open();
     wait(handle ? kOpenTurn_ms : kClosedTurn_ms);
     timeval none{0, 0};
@@ -194,7 +195,7 @@ void UsbLink::Impl::try_open() noexcept {
   next_look_ns = now + kLook_ns;
   UsbProblem why = UsbProblem::none;
   handle = open_first(context.get(), options.match, options.interface_number, why);
-  problem.store(why, kRelaxed);
+  problem.store(why, std::memory_order_relaxed);
   if (!handle) return;
   lost = false;
   serial = !options.ask_serial            ? std::string()
@@ -229,7 +230,7 @@ void UsbLink::Impl::close() noexcept {
   }
   if (options.interface_number >= 0) libusb_release_interface(handle.get(), options.interface_number);
   handle.reset();
-  problem.store(UsbProblem::not_attached, kRelaxed);
+  problem.store(UsbProblem::not_attached, std::memory_order_relaxed);
   handler.on_closed();
   next_look_ns = usb_now_ns() + kClosedTurn_ms * 1'000'000;
   look_now = false;
@@ -346,7 +347,7 @@ void UsbLink::wake() noexcept {
 }
 
 bool UsbLink::connected() const noexcept { return impl_->connected.load(std::memory_order_acquire); }
-UsbProblem UsbLink::problem() const noexcept { return impl_->problem.load(kRelaxed); }
+UsbProblem UsbLink::problem() const noexcept { return impl_->problem.load(std::memory_order_relaxed); }
 const UsbCounters& UsbLink::counters() const noexcept { return impl_->counters; }
 void UsbLink::reconnect() noexcept { impl_->lost = true; }
 const std::string& UsbLink::serial() const noexcept { return impl_->serial; }

@@ -11,7 +11,7 @@ using namespace tangent::test;
 
 namespace {
 
-ScenePtr torus() {
+ScenePtr traced_torus() {
   static const ScenePtr scene = scene_of(make_torus(0.040, 0.015, 48, 24));
   return scene;
 }
@@ -57,7 +57,7 @@ void every_tick(const ScenePtr& scene, const Preset& preset, int ticks, Check ch
 }  // namespace
 
 TEST_CASE("a converged tick's contact is a converged record of its trace - alone in the tick, the last one") {
-  for (const ScenePtr& scene : {torus(), box()})
+  for (const ScenePtr& scene : {traced_torus(), box()})
     for (const Method method : kSmoothMethods) {
       CAPTURE(name_of(method));
       int converged = 0, missing = 0, last = 0, alone = 0;
@@ -85,7 +85,7 @@ TEST_CASE("a converged tick's contact is a converged record of its trace - alone
 }
 
 TEST_CASE("iterations count the new planes: every record but the kept plane's") {
-  for (const ScenePtr& scene : {torus(), box()})
+  for (const ScenePtr& scene : {traced_torus(), box()})
     for (const Method method : kSmoothMethods) {
       CAPTURE(name_of(method));
       int wrong = 0, kept_wrong = 0;
@@ -132,7 +132,7 @@ TEST_CASE("the paper's gain column is Eq. 1 of its curvature and distance column
     int steps = 0;
     double worst = 0.0, worst_step = 0.0, worst_distance = 0.0;
     int at = 0;
-    every_tick(torus(), preset, 500, [&](const IterationTrace& trace, const TickOutput&, const TickState&) {
+    every_tick(traced_torus(), preset, 500, [&](const IterationTrace& trace, const TickOutput&, const TickState&) {
       const Vec3 centre = finger_at(at++);
       for (const IterationRecord& r : trace.view()) {
         const double h = glm::dot(centre - r.point, r.normal);
@@ -142,7 +142,7 @@ TEST_CASE("the paper's gain column is Eq. 1 of its curvature and distance column
         ++steps;
         const double eq1 = 0.9 / ((1.0 + 0.015 * r.curvature_per_m) * (1.0 + 3.0 * std::abs(r.distance_m)));
         worst = std::max(worst, std::abs(r.gain - eq1));
-        const ContactMesh& mesh = torus()->mesh();
+        const ContactMesh& mesh = traced_torus()->mesh();
         const Vec3 flat = unit(glm::cross(mesh.position(r.triangle, 1) - mesh.position(r.triangle, 0),
                                           mesh.position(r.triangle, 2) - mesh.position(r.triangle, 0)));
         const Vec3 projected = r.travel - glm::dot(r.travel, flat) * flat;
@@ -163,7 +163,7 @@ TEST_CASE("a larger curvature gain shortens the first step, a larger distance ga
     preset.solver.gain_distance_per_m = distance;
     auto trace = std::make_unique<IterationTrace>();
     // Off to the side, so that the first plane is not the answer.
-    solve_once(torus(), preset, {Vec3(0.070, 0.004, 0.013), Quat(1.0, 0.0, 0.0, 0.0)}, trace.get());
+    solve_once(traced_torus(), preset, {Vec3(0.070, 0.004, 0.013), Quat(1.0, 0.0, 0.0, 0.0)}, trace.get());
     return trace->records[0].gain;
   };
   CHECK(first_gain(0.0, 0.0) == doctest::Approx(0.9).epsilon(1e-15));
@@ -179,7 +179,7 @@ TEST_CASE("where every new plane counts, the limit on iterations holds for the p
       preset.solver.tolerance_m = 0.0;  // no error is below it
       auto trace = std::make_unique<IterationTrace>();
       const TickOutput out =
-          solve_once(torus(), preset, {Vec3(0.070, 0.004, 0.013), Quat(1.0, 0.0, 0.0, 0.0)}, trace.get());
+          solve_once(traced_torus(), preset, {Vec3(0.070, 0.004, 0.013), Quat(1.0, 0.0, 0.0, 0.0)}, trace.get());
       CAPTURE(name_of(method));
       CHECK(out.status == TickStatus::unconverged);
       CHECK(out.iterations == limit);
@@ -195,7 +195,7 @@ TEST_CASE("an unconverged tick's trace ends with a reason") {
   preset.solver.gain_distance_per_m = 0.0;
   int unconverged = 0, without_reason = 0;
   std::set<StopReason> reasons;
-  every_tick(torus(), preset, 300, [&](const IterationTrace& trace, const TickOutput& out, const TickState&) {
+  every_tick(traced_torus(), preset, 300, [&](const IterationTrace& trace, const TickOutput& out, const TickState&) {
     if (out.status != TickStatus::unconverged) return;
     ++unconverged;
     const StopReason stop = trace.records[trace.size - 1].stop;
