@@ -3,6 +3,7 @@
 #include "tests/workbench/session/guard_fixture.h"
 
 #include "core/preset/schema.h"
+#include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>
 
@@ -163,6 +164,7 @@ TEST_CASE("a change of any key of the schema that makes the gate act is undone w
     const std::string name = key.full_name();
     CAPTURE(name);
     CHECK(kAct.count(name) + kMayAct.count(name) + kNeverActed.count(name) == 1);  // a new key: try it, and say which
+    if (rounds(20) < 20 && kAct.count(name) == 0) continue;  // sanitizers look at those that act: minutes else
     Tried tried;
     const std::vector<Base> on = bases();
     for (std::size_t i = 0; i < on.size(); ++i)
