@@ -40,7 +40,7 @@ TEST_CASE("creases and vertices that one triangle has excluded for an ellipsoid 
     const Finger finger = finger_of(shape);
     const RankBound bound{finger.reach_m(), 1.0};
     int excluded = 0, unproved = 0;
-    for (int i = 0; i < rounds(400); ++i) {
+    for (int i = 0; i < 400; ++i) {
       const std::uint32_t t = random.below(mesh.triangle_count());
       const FingerPose pose = near_corner(finger, mesh, t, random);
       const FingerCore core(finger, pose);
