@@ -7,7 +7,8 @@
 namespace tangent {
 namespace {
 
-/// Directions are rounded, and summed up along the curve: a millionth of what a tenth of a degree is, a billion items.
+/// rad by which directions may be rounded: some 1e-16 a radian, and a curve may wind round a million times. Larger: a
+/// run of that many more is asked in vain.
 constexpr double kDirectionRoom = 1e-9;
 
 }  // namespace
