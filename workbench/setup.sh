@@ -86,14 +86,15 @@ configure() {
   fi
 }
 
-# build FOLDER TARGET CMAKE-OPTION...: configures when needed, builds when needed, in build/FOLDER.
+# build FOLDER TARGETS CMAKE-OPTION...: configures when needed, builds when needed, in build/FOLDER. TARGETS: words.
 build() {
-  local folder="$1" dir="$root/build/$1" target="$2"
+  local folder="$1" dir="$root/build/$1" targets=()
+  read -ra targets <<<"$2"
   shift 2
   mkdir -p "$dir"
   exec 9>"$dir/.lock"
   flock 9  # two starts at once build one after the other
   configure "$folder" "$@"
-  run_logged "$dir/build.log" "building $dir" "${launch[@]}" ninja -C "$dir" "$target"
+  run_logged "$dir/build.log" "building $dir" "${launch[@]}" ninja -C "$dir" "${targets[@]}"
   exec 9>&-
 }

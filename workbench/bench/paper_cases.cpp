@@ -6,7 +6,7 @@ namespace tangent::bench {
 
 namespace {
 
-constexpr double kStrokeSpeed = 0.1, kPress = 1e-3, kRounding = 1.5e-3, kFingerRadius = 0.020;
+constexpr double kStrokeSpeed = 0.1, kStrokePress = 1e-3, kRounding = 1.5e-3, kFingerRadius = 0.020;
 
 }  // namespace
 
@@ -20,11 +20,11 @@ std::vector<BenchCase> stroke_cases() {
     c.mesh = [=] { return generate_mesh(object, {.rounding_m = rounding}); };
     c.preset.finger.radius_m = kFingerRadius;
     c.preset.solver.gain_overall = 1.0;
-    c.preset.solver.gain_curvature_m = kFingerRadius - kPress;
+    c.preset.solver.gain_curvature_m = kFingerRadius - kStrokePress;
     c.preset.solver.gain_distance_per_m = 0.0;
     c.own_gains = true;
     c.poses = [](const ContactScene& scene, const Finger& finger, int ticks) {
-      return stroke(scene, finger, kStrokeSpeed, kPress, ticks);
+      return stroke(scene, finger, kStrokeSpeed, kStrokePress, ticks);
     };
     cases.push_back(std::move(c));
   }
@@ -40,13 +40,13 @@ std::vector<BenchCase> paper_cases() {
     c.mesh = [=] { return generate_mesh(object, {.rounding_m = rounding}); };
     c.preset.finger.radius_m = kFingerRadius;
     c.poses = [=](const ContactScene& scene, const Finger& finger, int ticks) {
-      return explore(scene, finger, kStrokeSpeed, kPress, ticks);
+      return explore(scene, finger, kStrokeSpeed, kStrokePress, ticks);
     };
     cases.push_back(std::move(c));
   };
   add("sphere", 0.0, "icosphere_320", "icosphere of 320 triangles, radius 40 mm");
   cases.back().poses = [](const ContactScene& scene, const Finger& finger, int ticks) {
-    return around_ball(scene.mesh().origin(), 0.040 + finger.radius_m - kPress, kStrokeSpeed, ticks);
+    return around_ball(scene.mesh().origin(), 0.040 + finger.radius_m - kStrokePress, kStrokeSpeed, ticks);
   };
   const std::vector<std::string> objects{"cone", "cylinder", "cube", "tetrahedron", "octagon", "triangle", "hexagon"};
   for (const std::string& object : objects)

@@ -1,21 +1,9 @@
 #include "workbench/cli/command_text.h"
 
 #include "workbench/cli/option.h"
-
-#include <algorithm>
+#include "workbench/session/file_origin.h"
 
 namespace tangent {
-namespace {
-
-std::string shell_word(const std::string& word) {
-  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
-}  // namespace
 
 std::string command_text(const std::string& name, const CLI::App& command) {
   std::string text = "workbench " + name;

@@ -102,7 +102,7 @@ TEST_CASE("a tick has the same output and state, bit by bit, with a warm cache, 
       TickState state;
       Rounds rounds_of;
       int different = 0, different_state = 0, one_plane = 0;
-      const int ticks = rounds(6000);
+      const int ticks = rounds(2000);
       for (int i = 0; i < ticks; ++i) {
         const TickInput input = rounds_of.next();
         TickState traced_state = state, cold_state = state;

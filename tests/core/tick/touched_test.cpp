@@ -43,7 +43,7 @@ Preset all_of(double radius_m) {
   return preset;
 }
 
-bool same_bits(const TickOutput& a, const TickOutput& b) {
+bool same_touch(const TickOutput& a, const TickOutput& b) {
   BitHash x, y;
   x.add(a), y.add(b);
   return x.value() == y.value();
@@ -180,7 +180,7 @@ TEST_CASE("with all places, too, a cold stepper and a copied state give the same
     const TickOutput out = stepper.step(preset, input, state);
     Stepper cold(scene);
     const TickOutput again = cold.step(preset, input, copy);
-    differ += !same_bits(out, again) || out.way_out_m != again.way_out_m || copy.touched.count != state.touched.count;
+    differ += !same_touch(out, again) || out.way_out_m != again.way_out_m || copy.touched.count != state.touched.count;
     several += state.touched.count > 0;
   }
   CHECK(differ == 0);

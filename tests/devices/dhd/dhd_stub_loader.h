@@ -14,7 +14,7 @@
 namespace tangent::test {
 
 /// Of the library at TANGENT_STUB_DHD, which stays loaded.
-inline StubDhd& stub_dhd() {
+inline StubDhd& loaded_stub_dhd() {
   static StubDhd* const stub = [] {
     void* library = dlopen(testing::stub_dhd().c_str(), RTLD_NOW | RTLD_LOCAL);
     return reinterpret_cast<StubDhd* (*)()>(dlsym(library, "tangent_stub_dhd"))();
@@ -24,8 +24,8 @@ inline StubDhd& stub_dhd() {
 
 /// As at first.
 inline StubDhd& fresh_stub_dhd() {
-  stub_dhd().reset();
-  return stub_dhd();
+  loaded_stub_dhd().reset();
+  return loaded_stub_dhd();
 }
 
 inline DhdOptions stub_dhd_options() { return {.library = testing::stub_dhd(), .reopen_s = 0.0}; }

@@ -348,9 +348,9 @@ TEST_CASE("openhaptics: of several that are set up one is chosen by its name, or
   options.device = "Left Device";
   HdForceDevice left(options);
   CHECK_FALSE(left.open());  // the stub has no such one
-  stub_hd().name = "Left Device";
+  loaded_stub_hd().name = "Left Device";
   REQUIRE(left.open());
-  CHECK(happened_in_order(stub_hd().log(), {"init Left Device"}));
+  CHECK(happened_in_order(loaded_stub_hd().log(), {"init Left Device"}));
   std::filesystem::remove_all(folder);
 }
 

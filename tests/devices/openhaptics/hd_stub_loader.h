@@ -14,7 +14,8 @@
 
 namespace tangent::test {
 
-inline StubHd& stub_hd() {
+/// Of the library at TANGENT_STUB_HD, which stays loaded.
+inline StubHd& loaded_stub_hd() {
   static StubHd* const stub = [] {
     void* library = dlopen(testing::stub_hd().c_str(), RTLD_NOW | RTLD_LOCAL);
     auto* get = reinterpret_cast<StubHd* (*)()>(dlsym(library, "tangent_stub_hd"));
@@ -25,8 +26,8 @@ inline StubHd& stub_hd() {
 
 /// As at first.
 inline StubHd& fresh_stub_hd() {
-  stub_hd().reset();
-  return stub_hd();
+  loaded_stub_hd().reset();
+  return loaded_stub_hd();
 }
 
 /// No folder of setups, and a keeper that finds no silence by itself: the test's turns take as long as they do.

@@ -45,7 +45,4 @@ struct StubHd {
   void (*reset)() = nullptr;
 };
 
-/// Of the library at TANGENT_STUB_HD, which stays loaded.
-StubHd& stub_hd();
-
 }  // namespace tangent::test

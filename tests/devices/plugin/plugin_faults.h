@@ -51,15 +51,15 @@ inline bool takes_all_memory(const PluginFault& fault) {
 }
 inline bool can_be_tried(const PluginFault& fault) { return kMemoryCanEnd || !takes_all_memory(fault); }
 
-struct FaultTicks {
+struct PluginFaultTicks {
   int to_notice = 0;      ///< exchanges from the first with the fault on, until device or gate are stopped
   int to_zero_force = 0;  ///< those of them that still carried force
 };
 
 /// Precondition: `bench` is armed and the fault begins with its next tick.
-inline FaultTicks count_fault_ticks(PluginBench& bench) {
+inline PluginFaultTicks count_fault_ticks(PluginBench& bench) {
   constexpr int kMost = 40;  // the gate stops after 11 at the latest
-  FaultTicks ticks;
+  PluginFaultTicks ticks;
   for (int i = 1; i <= kMost; ++i) {
     bench.step();
     if (bench.pushes()) ticks.to_zero_force = i;

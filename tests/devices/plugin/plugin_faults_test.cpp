@@ -12,7 +12,7 @@ TEST_CASE("whatever a plug-in does wrong, there is no force within two ticks, an
     CAPTURE(fault.name);
     const auto bench = bench_with(fault);
     CHECK_FALSE(bench->faulted());
-    const FaultTicks ticks = count_fault_ticks(*bench);
+    const PluginFaultTicks ticks = count_fault_ticks(*bench);
     CHECK(ticks.to_zero_force >= 1);  // the tick that it happens in
     CHECK(ticks.to_zero_force <= 2);
     CHECK(ticks.to_notice >= 1);
@@ -30,7 +30,7 @@ TEST_CASE("measure: faults of plugin" * doctest::skip()) {
   std::puts("| fault | ticks to notice | ticks to zero force |\n|---|---|---|");
   for (const PluginFault& fault : kPluginFaults) {
     if (!can_be_tried(fault)) continue;
-    const FaultTicks ticks = count_fault_ticks(*bench_with(fault));
+    const PluginFaultTicks ticks = count_fault_ticks(*bench_with(fault));
     std::printf("| %s | %d | %d |\n", fault.name, ticks.to_notice, ticks.to_zero_force);
   }
 }

@@ -5,7 +5,7 @@
 
 namespace tangent::serial_test {
 
-struct FaultTicks {
+struct SerialFaultTicks {
   int noticed = -1;  ///< first exchange that shows it: not ready, a fault of the gate, or the force withheld
   int zero = -1;     ///< first exchange that sends no force, and none later
 };
@@ -39,7 +39,7 @@ inline const std::vector<SerialFault>& serial_faults() {
   return all;
 }
 
-inline FaultTicks count_ticks(const SerialFault& fault) {
+inline SerialFaultTicks count_ticks(const SerialFault& fault) {
   SerialBench bench;
   bench.push();
   bench.rig.lie = fault.lie;
@@ -47,7 +47,7 @@ inline FaultTicks count_ticks(const SerialFault& fault) {
   if (fault.lie != Lie::none) bench.tick();         // its exchange is before the lie
   if (fault.lie == Lie::time_stands) bench.tick();  // the first of two that are the same is true
   if (fault.happen != nullptr) fault.happen(bench);
-  FaultTicks ticks;
+  SerialFaultTicks ticks;
   constexpr int kLong = 40;
   for (int i = 0; i < kLong; ++i) {
     bench.tick(DeviceRequest::none, stalls && i == 0 ? 30e-3 : SerialBench::kDt_s);

@@ -48,7 +48,7 @@ TEST_CASE("a force device on a serial line says what it is, is homed, and pushes
 TEST_CASE("every fault of a serial line takes the force away within two ticks") {
   for (const SerialFault& fault : serial_faults()) {
     CAPTURE(fault.name);
-    const FaultTicks ticks = count_ticks(fault);
+    const SerialFaultTicks ticks = count_ticks(fault);
     CHECK(ticks.noticed >= 0);
     CHECK(ticks.zero >= 0);
     CHECK(ticks.zero <= 2);
@@ -57,7 +57,7 @@ TEST_CASE("every fault of a serial line takes the force away within two ticks") 
 
 TEST_CASE("measure: faults of serial" * doctest::skip()) {
   for (const SerialFault& fault : serial_faults()) {
-    const FaultTicks ticks = count_ticks(fault);
+    const SerialFaultTicks ticks = count_ticks(fault);
     std::printf("| %s | %d | %d |\n", fault.name, ticks.noticed, ticks.zero);
   }
 }

@@ -10,7 +10,7 @@
 
 namespace tangent::testing {
 
-struct FaultTicks {
+struct SimulatedFaultTicks {
   int noticed = -1;  ///< until the gate or the device's own state says so; -1: never
   int zero = -1;     ///< until the exchange in which nothing is sent
 };
@@ -34,7 +34,7 @@ inline constexpr SimulatedFault kSimulatedFaults[] = {
 };
 
 /// 0.5 N are sent and the hand moves at 0.1 m/s when the fault comes.
-inline FaultTicks ticks_after(const SimulatedFault& fault) {
+inline SimulatedFaultTicks ticks_after(const SimulatedFault& fault) {
   constexpr double kTick_s = 1e-3, kSpeed_m_per_s = 0.1;
   constexpr int kBefore = 800, kMost = 200;
   SimulatedForceDevice device({.homing_s = 0.01});
@@ -43,7 +43,7 @@ inline FaultTicks ticks_after(const SimulatedFault& fault) {
   set.force = std::make_unique<SimulatedForceDevice>();
   SafetyGate gate(gate_limits(set, 1.0 / kTick_s));
   gate.arm();
-  FaultTicks ticks;
+  SimulatedFaultTicks ticks;
   DeviceRequest request = DeviceRequest::none;
   for (int tick = 0; tick < kBefore + kMost && ticks.zero < 0; ++tick) {
     const int since = tick - kBefore;

@@ -56,7 +56,7 @@ TEST_CASE("faults of the simulated force device: zero force within two ticks of 
   for (const SimulatedFault& fault : kSimulatedFaults) {
     const std::string name = fault.name;
     CAPTURE(name);
-    const FaultTicks ticks = ticks_after(fault);
+    const SimulatedFaultTicks ticks = ticks_after(fault);
     CHECK(ticks.noticed >= 0);
     CHECK(ticks.zero >= 0);
     CHECK(ticks.zero <= ticks.noticed + 2);
@@ -69,7 +69,7 @@ TEST_CASE("faults of the simulated force device: zero force within two ticks of 
 TEST_CASE("measure: faults of the simulated force device" * doctest::skip()) {
   std::puts("| fault | ticks to notice | ticks to zero force |\n|---|---|---|");
   for (const SimulatedFault& fault : kSimulatedFaults) {
-    const FaultTicks ticks = ticks_after(fault);
+    const SimulatedFaultTicks ticks = ticks_after(fault);
     std::printf("| %s | %d | %d |\n", fault.name, ticks.noticed, ticks.zero);
   }
 }

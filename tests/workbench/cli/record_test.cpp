@@ -111,7 +111,9 @@ TEST_CASE("signals end a recording in order, with every tick in one file") {
     const TempFolder folder;
     const std::string recording = folder.file("a.sqlite");
     const Process process({"record", "--out", recording});
-    std::this_thread::sleep_for(std::chrono::milliseconds(700));
+    // Before there is a file, a signal ends the program at once.
+    while (!process.ended() && folder.entry_count() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // some ticks
     process.interrupt(signal);
     const ProcessResult r = process.wait();
     CHECK(r.exit_code == 0);

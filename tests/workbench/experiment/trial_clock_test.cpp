@@ -79,9 +79,10 @@ TEST_CASE("put back between two starts, the date makes no onset go back, and the
   // Each start has the date that the computer had, so that it is seen what happened.
   const auto sidecar = read_sidecar(bench.trials->rows());
   REQUIRE(sidecar);
-  const std::string json = test::text_in(std::filesystem::path(bench.trials->rows()).replace_extension(".json"));
+  const std::string sidecar_text =
+      test::text_in(std::filesystem::path(bench.trials->rows()).replace_extension(".json"));
   for (const char* date : {"2025-11-24T16:00:00Z", "2025-11-22T16:00:00Z", "2025-11-24T17:00:00Z"})
-    CHECK(says(json, date));
+    CHECK(says(sidecar_text, date));
 }
 
 /// As short_naming, in two sessions.

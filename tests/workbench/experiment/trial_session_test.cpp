@@ -39,9 +39,10 @@ TEST_CASE("a whole comparison experiment: touched, raised, answered, written") {
     for (const std::string& digest : {origin->mesh, origin->preset, origin->program, origin->protocol})
       CHECK(digest.size() == 16);
   }
-  const std::string json = test::text_in(std::filesystem::path(bench.trials->rows()).replace_extension(".json"));
+  const std::string sidecar_text =
+      test::text_in(std::filesystem::path(bench.trials->rows()).replace_extension(".json"));
   for (const char* part : {"\"program\"", "\"preset\"", "\"stimuli\"", "exact arc"})
-    CHECK(json.find(part) != std::string::npos);
+    CHECK(sidecar_text.find(part) != std::string::npos);
 }
 
 TEST_CASE("a whole naming experiment: drawn to the start, a ding, named while touching, no push in between") {

@@ -1,4 +1,5 @@
 // The first minute: five steps on the first start, and an example for every job.
+#include "tests/support/sanitized.h"
 #include "tests/support/temp_folder.h"
 #include "tests/workbench/gui/running_app.h"
 #include "workbench/gui/panels/examples.h"
@@ -80,7 +81,8 @@ TEST_CASE("every step shows what it says: the paper's method with a gain that fa
   CHECK_FALSE(any_error(ui));
 }
 
-TEST_CASE("the examples show their jobs: defects and tight places, gains that fail, a fault that stopped the force") {
+TEST_CASE("the examples show their jobs: defects and tight places, gains that fail, a fault that stopped the force" *
+          doctest::skip(testing::kSanitized)) {
   REQUIRE(examples().size() == 3);
   for (std::size_t i = 0; i < examples().size(); ++i) {
     CAPTURE(std::string(examples()[i].name));

@@ -4,6 +4,7 @@
 #include "core/io/preset_file.h"
 #include "core/lab/objects/generate.h"
 #include "tests/support/paths.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/temp_folder.h"
 #include "tests/workbench/gui/running_app.h"
 
@@ -40,7 +41,8 @@ std::string run_part(HeadlessApp& ui, const testing::TempFolder& folder, const s
 
 }  // namespace
 
-TEST_CASE("the worst place of a strange mesh is found, explained, cured, and the cure proved and kept, by script") {
+TEST_CASE("the worst place of a strange mesh is found, explained, cured, and the cure proved and kept, by script" *
+          doctest::skip(testing::kSanitized)) {
   const testing::TempFolder folder;
   const auto mesh = folder.path() / "noisy.obj";
   REQUIRE(write_obj(noisy_sphere(), mesh, 1e-3));

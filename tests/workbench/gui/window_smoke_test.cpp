@@ -1,4 +1,5 @@
 // The real window from opening to closing: tests that need a window, its events and its files.
+#include "tests/support/sanitized.h"
 #include "tests/workbench/gui/headless_app.h"
 #include "tests/workbench/gui/real_window.h"
 
@@ -148,7 +149,8 @@ TEST_CASE("the real window takes every tap of a key, however quick") {
   drive({.folder = folder, .arguments = "icosphere"}, script);
 }
 
-TEST_CASE("the real window undoes and redoes a typed gain, and switches between A and B") {
+TEST_CASE("the real window undoes and redoes a typed gain, and switches between A and B" *
+          doctest::skip(testing::kSanitized)) {
   REQUIRE_DISPLAY();
   const auto folder = fresh_folder("tangent_window_smoke_undo");
   Script script(1600, kTall);
@@ -170,7 +172,8 @@ TEST_CASE("the real window slides a gain by dragging, and undoes the drag as one
   drive({.folder = folder, .arguments = "icosphere", .width = 1600, .height = kTall}, script);
 }
 
-TEST_CASE("the real window opens a mesh by its typed path, and says what is wrong with one that it can't read") {
+TEST_CASE("the real window opens a mesh by its typed path, and says what is wrong with one that it can't read" *
+          doctest::skip(testing::kSanitized)) {
   REQUIRE_DISPLAY();
   const auto folder = fresh_folder("tangent_window_smoke_path");
   write_tetrahedron(folder / "tetra.obj");
@@ -204,7 +207,8 @@ TEST_CASE("the real window closes by its menu") {
   CHECK(read_window_settings(settings_in(folder)).has_value());
 }
 
-TEST_CASE("the real window lives through any size, and turns of the wheel everywhere") {
+TEST_CASE("the real window lives through any size, and turns of the wheel everywhere" *
+          doctest::skip(testing::kSanitized)) {
   REQUIRE_DISPLAY();
   const auto folder = fresh_folder("tangent_window_smoke_sizes");
   WindowScript script;
@@ -262,7 +266,7 @@ TEST_CASE("the real window shows a polygon of the plane, and the device monitor 
   drive({.folder = folder, .arguments = "outline.csv", .shown = "^outline.csv"}, script);
 }
 
-TEST_CASE("the real window steps and scrubs in time, and writes what it shows") {
+TEST_CASE("the real window steps and scrubs in time, and writes what it shows" * doctest::skip(testing::kSanitized)) {
   REQUIRE_DISPLAY();
   const auto folder = fresh_folder("tangent_window_time");
   Script script(1600, kTall);

@@ -3,6 +3,7 @@
 #include "core/io/mesh_io.h"
 #include "core/lab/objects/arc.h"
 #include "tests/support/meshes.h"
+#include "tests/support/sanitized.h"
 #include "tests/workbench/session/session_fixture.h"
 
 #include <doctest/doctest.h>
@@ -116,7 +117,7 @@ void check_no_leap(const std::filesystem::path& file) {
 
 TEST_CASE("the path never leaps over spot") { check_no_leap(testing::spot_file()); }
 
-TEST_CASE("the path never leaps over the fandisk and the bunny") {
+TEST_CASE("the path never leaps over the fandisk and the bunny" * doctest::skip(testing::kSanitized)) {
   if (!testing::shared_files_there({"meshes/fandisk.obj", "meshes/stanford-bunny.obj"})) return;
   for (const char* file : {"meshes/fandisk.obj", "meshes/stanford-bunny.obj"})
     check_no_leap(testing::shared_file(file));

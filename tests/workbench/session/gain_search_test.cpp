@@ -1,4 +1,5 @@
 #include "workbench/session/gain_search.h"
+#include "tests/support/sanitized.h"
 
 #include "session_fixture.h"
 #include "workbench/session/session.h"
@@ -21,7 +22,7 @@ TEST_CASE("a search is better only by the numbers that are shown") {
   CHECK(shows_better(now, other));
 }
 
-TEST_CASE("gains found on recorded poses are the tuner's, and score as said") {
+TEST_CASE("gains found on recorded poses are the tuner's, and score as said" * doctest::skip(testing::kSanitized)) {
   SessionOptions options;
   options.threaded = false;
   Preset preset;

@@ -1,5 +1,6 @@
 // The mouse as the hand: it presses on places all over a mesh, one after the other.
 #include "core/lab/objects/generate.h"
+#include "tests/support/sanitized.h"
 #include "tests/workbench/session/session_fixture.h"
 #include "workbench/session/session.h"
 
@@ -58,7 +59,8 @@ Presses press(std::shared_ptr<const ContactScene> scene, int count) {
 
 }  // namespace
 
-TEST_CASE("fifty presses by the mouse on a torus and a cube stop no force and push no harder than a hand does") {
+TEST_CASE("fifty presses by the mouse on a torus and a cube stop no force and push no harder than a hand does" *
+          doctest::skip(testing::kSanitized)) {
   for (const auto& scene : {torus_scene(), scene_of(*generate_mesh("cube"))}) {
     const Presses presses = press(scene, 50);
     CHECK(presses.stopped == 0);
@@ -66,7 +68,7 @@ TEST_CASE("fifty presses by the mouse on a torus and a cube stop no force and pu
   }
 }
 
-TEST_CASE("fifty presses by the mouse on the bunny stop no force") {
+TEST_CASE("fifty presses by the mouse on the bunny stop no force" * doctest::skip(testing::kSanitized)) {
   if (!testing::shared_files_there({"meshes/stanford-bunny.obj"})) return;
   auto bunny = read_mesh(testing::shared_file("meshes/stanford-bunny.obj"), 1.0);
   REQUIRE(bunny);

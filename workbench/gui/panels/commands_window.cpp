@@ -112,7 +112,7 @@ void add_waiting(CommandList& out, AppModel& model, MenuBar& menu) {
                menu.wish.ticks = static_cast<std::uint64_t>(ticks);
                menu.wish.time_passes = true;
              });
-  out.plain({"wait for work", "Script: wait for the map, the past and the audit", "", "finish done"},
+  out.plain({"wait for work", "Script: wait for map, past, audit, searches, sweeps and curves", "", "finish done"},
             [&menu] { menu.wish.work = true; });
   out.text({"picture", "Script: picture of the window into the file", "", "save export image png screenshot"},
            "FILE.png", [&model](const std::string& file) -> Status {

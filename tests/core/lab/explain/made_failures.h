@@ -18,12 +18,6 @@ struct MadeFailure {
 };
 using MadeMaybe = std::optional<MadeFailure>;
 
-/// The contact's place and normal on a height field, and the finger's centre that touches there.
-struct Ground {
-  double (*height)(double a, double x, double y);
-  Vec3 (*normal)(double a, double x, double y);
-};
-
 inline Vec3 touching(const Vec3& point, const Vec3& normal, double radius_m, double depth_m) {
   return point + (radius_m - depth_m) * normal;
 }

@@ -65,7 +65,7 @@ TEST_CASE("a range set by hand stays until it is automatic again - nonsense is l
 }
 
 TEST_CASE("a changed preset is computed anew, unless it does not matter or is not to be followed") {
-  const auto scene = scene_of(make_icosphere(0.040, 2));
+  const auto scene = scene_of(make_icosphere(0.040, 1));
   Preset preset = sphere_preset(0.020, Method::paper);
   MapView map;
   compute(map, scene, preset, MapQuantity::gain_margin);
@@ -103,7 +103,7 @@ TEST_CASE("while something is dragged, and for a moment after, the map waits") {
 }
 
 TEST_CASE("a quantity about zero has a range about zero") {
-  const auto scene = scene_of(make_icosphere(0.040, 2));
+  const auto scene = scene_of(make_icosphere(0.040, 1));
   Preset preset = sphere_preset(0.020, Method::paper);
   preset.solver.gain_overall = 2.0;
   preset.solver.gain_curvature_m = 0.0;

@@ -1,4 +1,5 @@
 // Mesh inspection: maps, findings, creases, slices, control nets.
+#include "tests/support/sanitized.h"
 #include "tests/workbench/gui/running_app.h"
 
 #include "workbench/gui/panels/panels.h"
@@ -9,7 +10,8 @@ using namespace tangent;
 using tangent::test::HeadlessApp;
 using tangent::test::RunningApp;
 
-TEST_CASE("a map is chosen in its panel, its worst place gone to, its range dragged at the colour bar") {
+TEST_CASE("a map is chosen in its panel, its worst place gone to, its range dragged at the colour bar" *
+          doctest::skip(testing::kSanitized)) {
   RunningApp ui(HeadlessApp::deterministic_options(), 1280.0f, 2400.0f);
   ui.run(50);
   ui.click("map/quantity");

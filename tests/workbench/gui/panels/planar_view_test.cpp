@@ -1,5 +1,6 @@
 // 2D scenes in the window, conditions by name, and the panel "Smoothness as felt".
 #include "core/io/rendering_condition.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/temp_folder.h"
 #include "tests/workbench/gui/headless_app.h"
 
@@ -86,7 +87,8 @@ TEST_CASE("choosing a condition sets both sources in one step of undo") {
   CHECK(condition_of(app.model().presets().current()) == nullptr);
 }
 
-TEST_CASE("the panel on smoothness gives the verdict, and its button the heat map with the threshold marked") {
+TEST_CASE("the panel on smoothness gives the verdict, and its button the heat map with the threshold marked" *
+          doctest::skip(testing::kSanitized)) {
   HeadlessApp app(HeadlessApp::deterministic_options(), 1280.0f, 2400.0f);
   REQUIRE(app.model().scene().perception() != nullptr);
   CHECK(app.model().scene().perception()->curve_edges == 480);

@@ -1,6 +1,7 @@
 // Figures and tables for a paper, saved by a user through the dialogue.
 #include "workbench/gui/panels/save_panel.h"
 
+#include "tests/support/sanitized.h"
 #include "tests/support/temp_folder.h"
 #include "tests/workbench/gui/headless_app.h"
 #include "workbench/gui/model/export_tables.h"
@@ -204,7 +205,7 @@ TEST_CASE("one file is written at a time, and the message at its end says where 
   CHECK(messages.all().back().text == "written to one.svg");
 }
 
-TEST_CASE("the map is a table of places and values, those that the window shows") {
+TEST_CASE("the map is a table of places and values, those that the window shows" * doctest::skip(testing::kSanitized)) {
   SavingApp ui(100);
   CHECK_FALSE(write_map_table(ui.model(), ui.folder.path() / "none.csv"));
   ui.model().map().on = true;

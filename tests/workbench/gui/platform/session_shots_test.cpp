@@ -1,4 +1,5 @@
 // A session opens elsewhere as it was: the same picture.
+#include "tests/support/sanitized.h"
 #include "tests/support/temp_folder.h"
 #include "tests/workbench/gui/running_app.h"
 #include "workbench/gui/platform/offscreen.h"
@@ -69,7 +70,8 @@ TEST_CASE("a session that is moved with its recording opens as it was saved: the
   CHECK(different_bytes(was, other) > 10'000);
 }
 
-TEST_CASE("a session keeps slice, isolation, what is marked and the map's range: the same picture") {
+TEST_CASE("a session keeps slice, isolation, what is marked and the map's range: the same picture" *
+          doctest::skip(testing::kSanitized)) {
   if (!can_draw()) return;
   const testing::TempFolder folder;
   record_on_torus(folder.file("run.sqlite"));

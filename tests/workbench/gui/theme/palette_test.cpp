@@ -79,7 +79,7 @@ double contrast(const Rgba& a, const Rgba& b) {
   return (std::max(x, y) + 0.05) / (std::min(x, y) + 0.05);
 }
 
-Rgba unpacked(ImU32 c) {
+Rgba colour_of(ImU32 c) {
   const ImVec4 v = ImGui::ColorConvertU32ToFloat4(c);
   return {v.x, v.y, v.z, v.w};
 }
@@ -157,7 +157,7 @@ TEST_CASE("text has a contrast of at least 4.5 to 1 on every ground that it is w
     for (const auto& [ink_name, ink] : inks) {
       for (const auto& [ground_name, ground] : grounds) {
         INFO("theme ", i, ": ", ink_name, " on ", ground_name);
-        CHECK(contrast(unpacked(ink), unpacked(ground)) >= 4.5);
+        CHECK(contrast(colour_of(ink), colour_of(ground)) >= 4.5);
       }
     }
     ImGui::CreateContext();
@@ -166,12 +166,12 @@ TEST_CASE("text has a contrast of at least 4.5 to 1 on every ground that it is w
     for (const ImGuiCol ground : {ImGuiCol_Button, ImGuiCol_ButtonHovered, ImGuiCol_PopupBg, ImGuiCol_FrameBg}) {
       const ImVec4 g = colours[ground];
       INFO("theme ", i, ": text on ", ImGui::GetStyleColorName(ground));
-      CHECK(contrast(unpacked(c.text), {g.x, g.y, g.z, 1.0f}) >= 4.5);
+      CHECK(contrast(colour_of(c.text), {g.x, g.y, g.z, 1.0f}) >= 4.5);
     }
     ImGui::DestroyContext();
-    CHECK(contrast(unpacked(c.text), unpacked(c.accent_fill)) >= 4.5);
-    CHECK(contrast(unpacked(c.on_bad), unpacked(c.bad)) >= 4.5);
-    for (const ImU32 stop : {c.stop, c.stop_hovered}) CHECK(contrast(rgb_hex(0xFFFFFF), unpacked(stop)) >= 4.5);
+    CHECK(contrast(colour_of(c.text), colour_of(c.accent_fill)) >= 4.5);
+    CHECK(contrast(colour_of(c.on_bad), colour_of(c.bad)) >= 4.5);
+    for (const ImU32 stop : {c.stop, c.stop_hovered}) CHECK(contrast(rgb_hex(0xFFFFFF), colour_of(stop)) >= 4.5);
   }
 }
 
@@ -181,7 +181,7 @@ TEST_CASE("curves and what is drawn on the mesh have a contrast of at least 3 to
     for (const auto& group : groups(palette(theme)))
       for (const Named& one : group) {
         INFO("theme ", i, ": ", one.name);
-        CHECK(contrast(one.colour, unpacked(theme_colours(theme).plot)) >= 3.0);
+        CHECK(contrast(one.colour, colour_of(theme_colours(theme).plot)) >= 3.0);
       }
   }
 }
