@@ -128,7 +128,6 @@ class LinkWatch {
 void watch(Session& session, const MonitorOptions& options, const FaultInjection& fault, SessionRecorder* recorder,
            LinkWatch& links) {
   using Clock = std::chrono::steady_clock;
-  const InterruptGuard guard;
   const Keys keys;
   const bool live = ::isatty(STDOUT_FILENO) != 0;
   if (keys.active())
@@ -188,6 +187,7 @@ Status run_monitor(const MonitorOptions& options) {
   wanted.arm_on_start = options.stay_stopped ? ArmOnStart::never
                         : options.arm        ? ArmOnStart::always
                                              : ArmOnStart::simulated;
+  const InterruptGuard guard;  // before there are devices: a signal while they start ends them in order, too
   auto session = Session::create(*scene, Preset{}, wanted);
   if (!session) return tl::unexpected(session.error());
   if (options.without_timeout) (*session)->accept_no_timeout();

@@ -123,15 +123,15 @@ TEST_CASE("experiment: a person's keys from a pipe, in simulated time") {
 TEST_CASE(
     "experiment: keys without end, damaged or of another system's line ends neither hang it nor fill the screen") {
   const TempFolder folder;
-  const auto keys = [&](const std::string& from, const std::string& participant) {
+  const auto keys = [&](const std::string& from, const std::string& participant, const char* most_s = "60") {
     const testing::Process shell({"-c",
-                                  from + " | timeout -k 60 1 \"$0\" experiment \"$1\" --participant " + participant +
-                                      " --out \"$2\" --without-waiting",
+                                  from + " | timeout -k 60 " + most_s + " \"$0\" experiment \"$1\" --participant " +
+                                      participant + " --out \"$2\" --without-waiting",
                                   testing::program(), shipped("discrimination.toml"), folder.file("d")},
                                  "/bin/sh");
     return shell.wait();
   };
-  CHECK(keys("yes enter", "1").exit_code == 124);  // at the first signal: 137 were the last
+  CHECK(keys("yes enter", "1", "3").exit_code == 124);  // at the first signal: 137 were the last
   const ProcessResult crlf = keys("printf 'wait 1\\r\\nlift\\r\\n'", "2");
   CHECK(contains(crlf.err, "goes on from there"));
   const ProcessResult zeros = keys("printf 'wait 1\\n\\000\\000\\nnote still here\\n'", "3");
