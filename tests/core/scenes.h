@@ -5,6 +5,7 @@
 #include "core/lab/objects/generate.h"
 #include "core/tick/step.h"
 #include "tests/support/meshes.h"
+#include "tests/support/sanitized.h"
 
 #include <doctest/doctest.h>
 
@@ -98,11 +99,12 @@ inline std::string name_of(Method method) { return to_string(method); }
 
 /// How many of `full` rounds a test does: all in an optimised build, a part under sanitizers and in debug builds.
 inline int rounds(int full) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__OPTIMIZE__)
-  return std::max(1, full / 20);
+#if defined(__OPTIMIZE__)
+  constexpr bool kOptimised = true;
 #else
-  return full;
+  constexpr bool kOptimised = false;
 #endif
+  return testing::kSanitized || !kOptimised ? std::max(1, full / 20) : full;
 }
 
 /// Random numbers that are the same on every platform (the distributions of <random> are not).
