@@ -3,6 +3,7 @@
 cmake_minimum_required(VERSION 3.25)
 execute_process(COMMAND ${PROGRAM} --list-test-cases --reporters=xml OUTPUT_VARIABLE listed
   COMMAND_ERROR_IS_FATAL ANY)
+string(REPLACE ";" "" listed "${listed}")  # of "&quot;": it would part an item of a list
 string(REGEX MATCHALL "<TestCase [^>]*skipped=\"false\"" cases "${listed}")
 set(files)
 set(serial)

@@ -9,7 +9,7 @@
 namespace tangent::emulation {
 
 template <class Condition>
-bool eventually(Condition&& condition, double limit_s = 20.0) {
+bool eventually(Condition&& condition, double limit_s = 60.0) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(limit_s);
   while (!condition()) {
     if (std::chrono::steady_clock::now() > end) return false;
