@@ -138,25 +138,59 @@ Vec2 clamp_turn(const EdgeFan& fan, const Vec2& turn) {
   return fan.convex() && glm::dot(turn, fan.far) > turn.x ? fan.far : kNearTurn;
 }
 
+namespace {
+
+/// The travel across an edge, as its normal turns: with d from the fan's point to the finger's centre, e' the
+/// direction across edge and normal, and A the core's axes (finger/finger_core.h), it is d.e' - A N.A e' / |A N|; the
+/// ball's part runs along N. All in the frame of the edge, so that a turn takes few products.
+class TravelAcross {
+ public:
+  TravelAcross(const EdgeFan& fan, const Finger& finger, const FingerPose& pose) : fan_(fan) {
+    const Mat3 rotation = glm::mat3_cast(pose.orientation);
+    const Vec3 axes = core_axes_m(finger), d = pose.position - fan.point;
+    along_ = axes * (fan.tangent * rotation);
+    across1_ = axes * (fan.e1 * rotation);
+    across2_ = axes * (fan.e2 * rotation);
+    d_ = {glm::dot(d, fan.e1), glm::dot(d, fan.e2)};
+  }
+
+  /// m; `rate`: how fast it becomes less as the turn grows, m/rad.
+  double at(const Vec2& turn, double& rate) const {
+    const FanTilt tilt = tilt_at(fan_, turn);
+    const Vec3 radial = turn.x * across1_ + turn.y * across2_, across = turn.x * across2_ - turn.y * across1_;
+    const Vec3 an = tilt.tilt * along_ + tilt.level * radial;
+    Vec3 turned = tilt.level * across;
+    if (tilt.rate != 0.0 && tilt.level > 1e-9) turned += tilt.rate * (along_ - (tilt.tilt / tilt.level) * radial);
+    const double length2 = glm::dot(an, an), per = length2 > 0.0 ? 1.0 / std::sqrt(length2) : 0.0;
+    const double leans = glm::dot(an, across);
+    rate = d_.x * turn.x + d_.y * turn.y +
+           per * (glm::dot(turned, across) - glm::dot(an, radial) - per * per * leans * glm::dot(an, turned));
+    return d_.y * turn.x - d_.x * turn.y - per * leans;
+  }
+
+ private:
+  const EdgeFan& fan_;
+  Vec3 along_, across1_, across2_;  ///< A times the frame, m, in the finger's
+  Vec2 d_;
+};
+
+}  // namespace
+
 Vec2 facing_turn(const EdgeFan& fan, const Finger& finger, const FingerPose& pose) {
   Vec2 turn = turn_of(fan, pose.position - fan.point);
   if (is_round(finger)) return turn;
-  // Other shapes: Newton on the component of the travel across the edge, d(travel)/d(turn) = -H dN/d(turn). That is
-  // minus the penetration's derivative (finger/facing_normal.h): where it is positive, the least penetration lies
-  // further on. On the flank of a long finger Newton's steps overshoot it for ever, so they are kept between the turns
-  // that were too small and those that were too large.
+  // Other shapes: Newton on the travel across. Where its rate is positive, the least penetration lies further on
+  // (finger/facing_normal.h). On the flank of a long finger Newton's steps overshoot it for ever, so they are kept
+  // between the turns that were too small and those that were too large.
   constexpr double kLongest = 0.5, kSameTurn = 1e-13;  // rad
+  const TravelAcross travel(fan, finger, pose);
   double angle = 0.0, too_small = -std::numeric_limits<double>::infinity(), too_large = -too_small;
   for (int i = 0; i < 40; ++i) {
-    SurfaceSample s;
-    edge_sample(fan, turn, s);
-    const PlaneContact c = contact_on_plane(finger, pose, s.point, s.normal);
-    const Vec3 across = unit(glm::cross(fan.tangent, s.normal));
-    const double residual = glm::dot(c.travel, across);
-    const double slope = glm::dot(offset_derivative(finger, pose, s.normal, c.penetration_m) * s.normal_v, across);
+    double rate = 0.0;
+    const double residual = travel.at(turn, rate);
     if (residual == 0.0) break;
     (residual > 0.0 ? too_small : too_large) = angle;
-    double change = slope > 0.0 ? std::clamp(residual / slope, -kLongest, kLongest) : std::copysign(kLongest, residual);
+    double change = rate > 0.0 ? std::clamp(residual / rate, -kLongest, kLongest) : std::copysign(kLongest, residual);
     const bool last = std::abs(change) < kSameTurn;
     if (!last && !(angle + change > too_small && angle + change < too_large))
       change = 0.5 * (too_small + too_large) - angle;

@@ -68,18 +68,29 @@ inline void uniform_sample(const EdgeFan& fan, const Vec3& point, const Vec2& tu
   sample.normal_v = turn.x * fan.e2 - turn.y * fan.e1;
 }
 
+/// How far the normals at a turn lean along the edge.
+struct FanTilt {
+  double share = 0.0;             ///< of the far side
+  double tilt = 0.0, rate = 0.0;  ///< normal . tangent, and its derivative by the turn's angle
+  double level = 1.0;             ///< the normal's part across the edge
+};
+[[gnu::always_inline]] inline FanTilt tilt_at(const EdgeFan& fan, const Vec2& turn) {
+  FanTilt at;
+  if (!fan.even) {
+    at.share = std::clamp(share_of(fan, turn), 0.0, 1.0);
+    at.rate = (fan.tilt_far - fan.tilt_near) * share_rate(fan, turn);
+  }
+  at.tilt = fan.tilt_near + at.share * (fan.tilt_far - fan.tilt_near);
+  at.level = std::sqrt(std::max(0.0, 1.0 - at.tilt * at.tilt));
+  return at;
+}
+
 /// The edge's point with the fan's unit normal at `turn`; _u is along f, _v along the turn's angle. The normal's
 /// derivative along f is interpolated between the sides, but for its part along the edge, N_f.T = tilt_f - N.T_f, which
 /// is exact. Inline, lest the solver waits for what it has just written to be read back.
 [[gnu::always_inline]] inline void edge_sample(const EdgeFan& fan, Vec2 turn, SurfaceSample& sample) {
   if (fan.uniform) return uniform_sample(fan, fan.point, turn, uniform_normal(fan, turn), sample);
-  double share = 0.0, tilt_rate = 0.0;  // of the far side; of the tilt, 1/rad
-  if (!fan.even) {
-    share = std::clamp(share_of(fan, turn), 0.0, 1.0);
-    tilt_rate = (fan.tilt_far - fan.tilt_near) * share_rate(fan, turn);
-  }
-  const double tilt = fan.tilt_near + share * (fan.tilt_far - fan.tilt_near);
-  const double level = std::sqrt(std::max(0.0, 1.0 - tilt * tilt));
+  const auto [share, tilt, tilt_rate, level] = tilt_at(fan, turn);
   const Vec3 radial = turn.x * fan.e1 + turn.y * fan.e2;
   const Vec3 normal = tilt * fan.tangent + level * radial;
   Vec3 by_turn = level * (turn.x * fan.e2 - turn.y * fan.e1);

@@ -103,6 +103,12 @@ double Finger::tilt_rad() const {
   return std::min(1.2 * tilt + 0.05, 3.1);
 }
 
+Vec3 core_axes_m(const Finger& finger) {
+  if (finger.shape == FingerShape::ellipsoid) return finger.semi_axes_m;
+  if (finger.shape != FingerShape::capsule) return Vec3(0.0);
+  return finger.half_length_m * Vec3(std::sqrt(1.0 + kSpindle * kSpindle), kSpindle, kSpindle);
+}
+
 Support support_with_derivative(const Finger& finger, const FingerPose& pose, const Vec3& normal) {
   switch (finger.shape) {
     case FingerShape::point:

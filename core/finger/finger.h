@@ -45,6 +45,9 @@ struct Support {
   Mat3 by_normal;  ///< dp/dN restricted to tangents of N, m (sphere: -R I)
 };
 
+/// Semi-axes of the ellipsoid that the finger is a ball rolled over (finger_core.h), m, in its frame; 0 where it is
+/// round.
+Vec3 core_axes_m(const Finger& finger);
 Vec3 support_point(const Finger& finger, const FingerPose& pose, const Vec3& normal);
 Support support_with_derivative(const Finger& finger, const FingerPose& pose, const Vec3& normal);
 

@@ -12,76 +12,92 @@ namespace {
 constexpr double kWideCone = 0.7;     // cosine: of wider cones nothing is proved along single directions ...
 constexpr double kWidestCone = 0.05;  // ... or at all
 
-/// What a cone of normals does to the support of its axis.
-struct Spread {
+double radius_of(const Vec3& half) { return std::sqrt(glm::dot(half, half)); }
+
+double sine_of(double cosine) { return std::sqrt(std::max(0.0, 1.0 - cosine * cosine)); }
+
+/// The support of a part's axis, seen from the part's middle.
+struct Sight {
   CoreSupport support;
-  double tangent = 0.0, sine = 0.0;  ///< of the half angle
-  double step_m = 0.0;               ///< |A tau| at most
+  Vec3 away{0.0};                     ///< from the part's middle to the support
+  double away2 = 0.0, along = 0.0;    ///< |away|^2, away along the axis
+  double sine = 0.0, radius_m = 0.0;  ///< of the cone's half angle; of the ball about the box
+
+  Sight(const FingerCore& core, const SurfaceBounds& part)
+      : support(core.support(part.normals.axis)),
+        away(support.point - part.middle),
+        away2(glm::dot(away, away)),
+        along(glm::dot(away, part.normals.axis)),
+        sine(sine_of(part.normals.cos_half)),
+        radius_m(radius_of(part.half)) {}
+
+  /// Then no direction tells more.
+  bool is_near() const { return away2 < radius_m * radius_m; }
+};
+
+/// What a cone of normals does to it.
+struct Spread {
+  double tangent = 0.0;  ///< of the half angle
+  double step_m = 0.0;   ///< |A tau| at most
   double least_length_m = 0.0;
-  Vec3 away{0.0};         ///< from the part's middle to the support
   double bend = 0.0;      ///< of the core, FingerCore::bend; set by bound_curving
   double lambda_m = 0.0;  ///< |p(N) - S| at most; set by bound_curving
 };
 
-Spread spread_over(const FingerCore& core, const SurfaceBounds& part) {
+Spread spread_over(const FingerCore& core, const SurfaceBounds& part, const Sight& sight) {
   Spread s;
-  const double cosine = part.normals.cos_half;
-  s.support = core.support(part.normals.axis);
-  s.sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
-  s.tangent = s.sine / cosine;
-  s.step_m = core.widest_step(s.support, s.tangent);
-  s.least_length_m = s.support.length - s.step_m;
-  s.away = s.support.point - part.middle;
+  s.tangent = sight.sine / part.normals.cos_half;
+  s.step_m = core.widest_step(sight.support, s.tangent);
+  s.least_length_m = sight.support.length - s.step_m;
   return s;
 }
 
 /// What only misses along single directions need.
-void bound_curving(const FingerCore& core, const SurfaceBounds& part, Spread& s) {
-  s.bend = core.bend(s.support, s.step_m);
-  const double moves = core.largest_radius(s.support.length) * s.tangent + core.longest_m() * s.bend;
-  s.lambda_m = std::sqrt(glm::dot(s.away, s.away)) + std::sqrt(glm::dot(part.half, part.half)) +
-               std::min(2.0 * core.longest_m(), moves);
+void bound_curving(const FingerCore& core, const Sight& sight, Spread& s) {
+  s.bend = core.bend(sight.support, s.step_m);
+  const double moves = core.largest_radius(sight.support.length) * s.tangent + core.longest_m() * s.bend;
+  s.lambda_m = std::sqrt(sight.away2) + sight.radius_m + std::min(2.0 * core.longest_m(), moves);
 }
 
 double extent(const Vec3& half, const Vec3& t) { return glm::dot(half, glm::abs(t)); }
 
 /// How far p(N).t can be from that of the cone's axis.
-double spread_along(const FingerCore& core, const Spread& s, const Vec3& t) {
+double spread_along(const FingerCore& core, const Sight& sight, const Spread& s, const Vec3& t) {
   const Vec3 scaled = core.scaled(t);
   const double half_width = std::sqrt(glm::dot(scaled, scaled));
-  const double near = core.derivative_length(s.support, scaled) * s.tangent + half_width * s.bend;
-  return std::min(near, half_width + std::abs(glm::dot(s.support.point - core.centre(), t)));
+  const double near = core.derivative_length(sight.support, scaled) * s.tangent + half_width * s.bend;
+  return std::min(near, half_width + std::abs(glm::dot(sight.support.point - core.centre(), t)));
 }
 
 /// By how much p(N) - S misses the direction of N along t, a unit vector across the cone's axis, for every N and S.
 /// Where the core's spread is left out of account already, that: not over 0.
-double miss_along(const FingerCore& core, const SurfaceBounds& part, const Spread& s, const Vec3& t) {
-  const double unspread = std::abs(glm::dot(s.away, t)) - extent(part.half, t) - s.sine * s.lambda_m;
-  return unspread > 0.0 ? unspread - spread_along(core, s, t) : unspread;
+double miss_along(const FingerCore& core, const SurfaceBounds& part, const Sight& sight, const Spread& s,
+                  const Vec3& t) {
+  const double unspread = std::abs(glm::dot(sight.away, t)) - extent(part.half, t) - sight.sine * s.lambda_m;
+  return unspread > 0.0 ? unspread - spread_along(core, sight, s, t) : unspread;
 }
 
 /// By how much p(N) - S misses the directions of the cone whatever its parts are: seen from the middle p(N) is within a
 /// ball about that of the axis. Of wide cones that says more than a miss along one direction, of narrow ones less.
-double miss_of_cone(const FingerCore& core, const SurfaceBounds& part, const Spread& s) {
-  const double cosine = part.normals.cos_half, chord = std::sqrt(2.0 - 2.0 * cosine);
+double miss_of_cone(const FingerCore& core, const SurfaceBounds& part, const Sight& sight) {
+  const double cosine = part.normals.cos_half;
+  const double across = std::sqrt(std::max(0.0, sight.away2 - sight.along * sight.along));
+  const double unspread = across * cosine - std::abs(sight.along) * sight.sine;
+  if (unspread <= sight.radius_m) return 0.0;  // within the cone
+  const double chord = std::sqrt(2.0 - 2.0 * cosine);
   const double way = 1.12 * chord;  // over the sphere of normals, up to a right angle
-  const double radius = core.largest_radius(s.support.length - core.longest_m() * chord);
-  const double spread = std::min(2.0 * core.longest_m(), radius * way);
-  const double distance = std::sqrt(glm::dot(s.away, s.away));
-  const double along = std::abs(glm::dot(s.away, part.normals.axis));
-  const double across = std::sqrt(std::max(0.0, distance * distance - along * along));
-  if (across * cosine <= along * s.sine) return 0.0;  // within the cone
-  return across * cosine - along * s.sine - spread - std::sqrt(glm::dot(part.half, part.half));
+  const double radius = core.largest_radius(sight.support.length - core.longest_m() * chord);
+  return unspread - std::min(2.0 * core.longest_m(), radius * way) - sight.radius_m;
 }
 
 /// By how far the finger's centre misses every line through the part along its normals, beyond what one that touches
 /// there may: it touches p(N) = c - q with q no further from N's line than the lever, however it is turned.
 double miss_of_centre(const FingerCore& core, const SurfaceBounds& part) {
-  const double cosine = part.normals.cos_half, sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+  const double cosine = part.normals.cos_half;
   const Vec3 d = core.centre() - part.middle;
   const double along = std::abs(glm::dot(d, part.normals.axis));
   const double across = std::sqrt(std::max(0.0, glm::dot(d, d) - along * along));
-  return across * cosine - along * sine - std::sqrt(glm::dot(part.half, part.half)) - core.lever_m();
+  return across * cosine - along * sine_of(cosine) - radius_of(part.half) - core.lever_m();
 }
 
 /// Directions in which a miss is looked for: to where the axis' support misses the middle, and across the core's
@@ -90,16 +106,16 @@ struct Directions {
   std::array<Vec3, 2> t;
   int count = 0;
 };
-Directions directions(const FingerCore& core, const SurfaceBounds& part, const Spread& s) {
+Directions directions(const FingerCore& core, const SurfaceBounds& part, const Sight& sight, const Spread& s) {
   Directions d;
-  const double along = glm::dot(s.away, part.normals.axis), room = s.sine * s.lambda_m;
-  if (!(glm::dot(s.away, s.away) - along * along > room * room)) return d;  // a miss in no direction
+  const double room = sight.sine * s.lambda_m;
+  if (!(sight.away2 - sight.along * sight.along > room * room)) return d;  // a miss in no direction
   const auto add = [&](const Vec3& v, double least2) {
     const double length2 = glm::dot(v, v);
     if (length2 > least2) d.t[static_cast<std::size_t>(d.count++)] = v / std::sqrt(length2);
   };
   const Vec3& axis = part.normals.axis;
-  add(s.away - glm::dot(s.away, axis) * axis, 0.0);
+  add(sight.away - sight.along * axis, 0.0);
   add(glm::cross(core.long_axis(), axis), 0.01);
   return d;
 }
@@ -123,15 +139,9 @@ double thickness(const Finger& finger, double longest_m, double shortest_m) {
 }  // namespace
 
 FingerCore::FingerCore(const Finger& finger, const FingerPose& pose, bool turns)
-    : centre_(pose.position), axes_m_(0.0), rotation_(glm::mat3_cast(pose.orientation)), turns_(turns) {
-  if (finger.shape == FingerShape::ellipsoid) {
-    axes_m_ = finger.semi_axes_m;
-  } else if (finger.shape == FingerShape::capsule) {
-    axes_m_ = finger.half_length_m * Vec3(std::sqrt(1.0 + kSpindle * kSpindle), kSpindle, kSpindle);
-    ball_m_ = finger.radius_m;
-  } else {
-    ball_m_ = finger.reach_m();
-  }
+    : centre_(pose.position), axes_m_(core_axes_m(finger)), rotation_(glm::mat3_cast(pose.orientation)), turns_(turns) {
+  if (finger.shape != FingerShape::ellipsoid)
+    ball_m_ = finger.shape == FingerShape::capsule ? finger.radius_m : finger.reach_m();
   reach_m_ = finger.reach_m();
   lever_m_ = finger.unroundness_m();
   std::array<double, 3> sorted{axes_m_.x, axes_m_.y, axes_m_.z};
@@ -204,7 +214,8 @@ double FingerCore::largest_radius(double least_length_m) const {
 double FingerCore::slide_rate(double least_length_m, double way_m) const {
   if (!turns_ || !(lever_m_ > 0.0)) return 1.0;
   const double radius = largest_radius(least_length_m - longest_m_ * turn_within(way_m));
-  return std::max(1.0, std::hypot(lever_m_, std::max(longest_m_ - sharpest_m_, radius - shortest_m_)) / reach_m_);
+  const double across = std::max(longest_m_ - sharpest_m_, radius - shortest_m_);
+  return std::max(1.0, std::sqrt(lever_m_ * lever_m_ + across * across) / reach_m_);
 }
 
 // p(N) can't leave the core, whose width changes by no more than the way; lambda by no more, either.
@@ -223,23 +234,38 @@ double way_to_face(const FingerCore& core, const SurfaceBounds& part) {
   return part.normals.cos_half < kWidestCone ? 0.0 : miss_of_centre(core, part);
 }
 
+namespace {
+
+bool is_missed_by_cone(const FingerCore& core, const SurfaceBounds& part, const Sight& sight, double way_m) {
+  const double missed = miss_of_cone(core, part, sight);
+  if (!(missed > way_m)) return false;  // no slide is shorter
+  const double least_length = spread_over(core, part, sight).least_length_m;
+  return missed > core.slide_m(core.longest_m(), least_length, way_m);
+}
+
+}  // namespace
+
+bool can_touch_at_a_glance(const FingerCore& core, const SurfaceBounds& part, double way_m) {
+  if (part.normals.cos_half < kWidestCone) return true;
+  const Sight sight(core, part);
+  return sight.is_near() || !is_missed_by_cone(core, part, sight, way_m);
+}
+
 bool can_touch(const FingerCore& core, const SurfaceBounds& part, double most_m, double way_m) {
   const double cosine = part.normals.cos_half;
   if (cosine < kWidestCone) return true;
-  Spread s = spread_over(core, part);
-  if (glm::dot(s.away, s.away) < glm::dot(part.half, part.half)) return true;
-  const double missed = miss_of_cone(core, part, s);
-  if (missed > 0.0 && missed > core.slide_m(core.longest_m(), s.least_length_m, way_m)) return false;
+  const Sight sight(core, part);
+  if (sight.is_near()) return true;
+  if (is_missed_by_cone(core, part, sight, way_m)) return false;
   if (cosine < kWideCone) return true;
-  bound_curving(core, part, s);
-  const double along = glm::dot(s.away, part.normals.axis);
+  Spread s = spread_over(core, part, sight);
+  bound_curving(core, sight, s);
   // p(N) lies no lower over the axis' plane than p of the axis.
-  if (along - extent(part.half, part.normals.axis) - s.lambda_m * (1.0 - cosine) > most_m) return false;
-  const Directions d = directions(core, part, s);
+  if (sight.along - extent(part.half, part.normals.axis) - s.lambda_m * (1.0 - cosine) > most_m) return false;
+  const Directions d = directions(core, part, sight, s);
   for (const Vec3& t : std::span(d.t).first(static_cast<std::size_t>(d.count))) {
-    const double miss = miss_along(core, part, s, t);
-    if (miss > 0.0 && miss > (way_m > 0.0 ? core.slide_m(core.half_width(t), s.least_length_m, way_m) : 0.0))
-      return false;
+    const double miss = miss_along(core, part, sight, s, t);
+    if (miss > way_m && miss > core.slide_m(core.half_width(t), s.least_length_m, way_m)) return false;
   }
   return true;
 }
@@ -248,13 +274,14 @@ double touch_margin(const FingerCore& core, const SurfaceBounds& part, double en
   if (part.normals.cos_half < kWidestCone) return 0.0;
   double margin = std::max(0.0, miss_of_centre(core, part));
   if (margin > 0.0 && margin >= enough_m) return margin;
-  Spread s = spread_over(core, part);
-  margin = std::max(margin, core.way_within(core.longest_m(), s.least_length_m, miss_of_cone(core, part, s)));
+  const Sight sight(core, part);
+  Spread s = spread_over(core, part, sight);
+  margin = std::max(margin, core.way_within(core.longest_m(), s.least_length_m, miss_of_cone(core, part, sight)));
   if (part.normals.cos_half < kWideCone || (margin > 0.0 && margin >= enough_m)) return margin;
-  bound_curving(core, part, s);
-  const Directions d = directions(core, part, s);
+  bound_curving(core, sight, s);
+  const Directions d = directions(core, part, sight, s);
   for (const Vec3& t : std::span(d.t).first(static_cast<std::size_t>(d.count))) {
-    const double miss = miss_along(core, part, s, t);
+    const double miss = miss_along(core, part, sight, s, t);
     if (miss > 0.0) margin = std::max(margin, core.way_within(core.half_width(t), s.least_length_m, miss));
   }
   return margin;

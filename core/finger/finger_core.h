@@ -43,6 +43,8 @@ class FingerCore {
   /// Radii of curvature of the whole finger, over all its places and directions.
   double flattest_m() const { return ball_m_ + largest_radius(0.0); }
   double sharpest_m() const { return ball_m_ + sharpest_m_; }
+  /// flattest_near of any cone is no less.
+  double least_flattest_m() const { return ball_m_ + largest_radius(longest_m_); }
   /// The largest at normals within a cone, while the finger goes `way_m`.
   double flattest_near(const NormalCone& normals, double way_m) const;
 
@@ -126,6 +128,12 @@ class FingerCore {
   double least_rate_ = 1.0, slow_length_m_ = 0.0, slow_turn_ = 0.0;
 };
 
+/// Whether the core is all but a segment, as a capsule's.
+inline bool is_thin(const FingerCore& core) {
+  constexpr double kThin = 0.05;  // half width to half length
+  return core.width_m() < kThin * core.longest_m();
+}
+
 /// A part of the surface by bounds: its points in a box, its normals in a cone.
 struct SurfaceBounds {
   Vec3 middle{0.0}, half{0.0};  ///< of the box, m
@@ -137,6 +145,8 @@ double way_to_face(const FingerCore& core, const SurfaceBounds& part);
 /// Which contacts a finger may have on such a part: p(N) - S = lambda N with lambda up to `most_m`, which is the ball's
 /// radius less the depth.
 bool can_touch(const FingerCore& core, const SurfaceBounds& part, double most_m, double way_m);
+/// The same without what single directions tell.
+bool can_touch_at_a_glance(const FingerCore& core, const SurfaceBounds& part, double way_m);
 /// How far the finger may go until it could touch such a part at all; 0: no proof. Once it is `enough_m`, no more is
 /// asked for.
 double touch_margin(const FingerCore& core, const SurfaceBounds& part,

@@ -440,6 +440,7 @@ bool is_steady_for_core(const ContactQuery& q, double least, const NormalCone& n
   const FingerCore& core = *q.core;
   const double less = core.reach_m() + core.lever_m() - q.nearest_m;
   if ((core.flattest_m() - less) * least > kSteadyRoom - 1.0) return true;
+  if (least < 0.0 && (core.least_flattest_m() - less) * least <= kSteadyRoom - 1.0) return false;
   return (core.flattest_near(normals, q.margin_m) - less) * least > kSteadyRoom - 1.0;
 }
 
@@ -462,7 +463,9 @@ bool ContactHierarchy::misses(const Rim& rim, const Node& node, const ContactQue
 }
 
 NormalCone ContactHierarchy::normals_of(const Node& node) {
-  return {unit(Vec3(node.axis[0], node.axis[1], node.axis[2])), node.cos_half};
+  // It is unit but for the rounding to floats: a step of Newton's takes the root's place.
+  const Vec3 axis(node.axis[0], node.axis[1], node.axis[2]);
+  return {(1.5 - 0.5 * glm::dot(axis, axis)) * axis, node.cos_half};
 }
 
 bool ContactHierarchy::touchable(const Node& node, const ContactQuery& q, double box2) {
@@ -481,7 +484,10 @@ bool ContactHierarchy::touchable(const Node& node, const ContactQuery& q, double
   const double farther = far + core.inner_m();
   const double led = q.nearest_m - nearest;
   if (std::sqrt(box2) > farther - led && core.apart_m(part.middle, part.half) > far) return false;
-  return can_touch(core, part, most_lambda_m(core, nearest), way);
+  // Single directions tell of parts that are small, or flat, not of others.
+  constexpr float kFlat = 0.9999f;
+  const bool closely = (node.link & kLeaf) || node.cos_half > kFlat;
+  return closely ? can_touch(core, part, most_lambda_m(core, nearest), way) : can_touch_at_a_glance(core, part, way);
 }
 
 void limit_query(ContactQuery& query, const Finger& finger, double rank) {

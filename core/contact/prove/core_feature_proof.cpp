@@ -62,10 +62,14 @@ double margin_by_distance(const FingerCore& core, const SurfaceBounds& part, con
   return std::max(0.0, std::min(clear, bound.way_to(core.reach_m() - core.ball_m() + apart)));
 }
 
-double margin_of(const FingerCore& core, const SurfaceBounds& part, const RankBound& bound) {
+/// Once it is `enough_m`, no more is asked for.
+double margin_of(const FingerCore& core, const SurfaceBounds& part, const RankBound& bound, double enough_m) {
   const double apart = core.apart_m(part.middle, part.half);
-  const double outside = std::min(apart, bound.way_to(core.rank_outside(apart)));
-  return std::max({outside, touch_margin(core, part), margin_by_distance(core, part, bound)});
+  double margin = std::min(apart, bound.way_to(core.rank_outside(apart)));
+  const auto is_enough = [&] { return margin > 0.0 && margin >= enough_m; };
+  if (!is_enough()) margin = std::max(margin, touch_margin(core, part, enough_m));
+  if (!is_enough()) margin = std::max(margin, margin_by_distance(core, part, bound));
+  return margin;
 }
 
 /// A crease by control points of its curve, then control normals of its near and of its far side.
@@ -101,10 +105,10 @@ bool is_hollow(const Crease& crease) {
   return true;
 }
 
-double edge_margin(const Crease& crease, const FingerCore& core, const RankBound& bound) {
+double edge_margin(const Crease& crease, const FingerCore& core, const RankBound& bound, double enough_m) {
   Box box;
   for (const Vec3& p : crease.curve) box.include(p);
-  return margin_of(core, {box.centre(), 0.5 * box.size(), crease.normals.cone()}, bound);
+  return margin_of(core, {box.centre(), 0.5 * box.size(), crease.normals.cone()}, bound, enough_m);
 }
 
 /// Whether all creases that meet at a vertex are hollow: none can rest on it.
@@ -122,7 +126,7 @@ bool is_hollow_vertex(ContactContext& context, std::uint32_t t, std::uint32_t co
 
 /// Boundaries there have none.
 double vertex_margin(ContactContext& context, const FingerCore& core, std::uint32_t t, std::uint32_t corner,
-                     const RankBound& bound) {
+                     const RankBound& bound, double enough_m) {
   const ContactMesh& mesh = context.cache.mesh();
   if (mesh.crowded_vertex(mesh.vertex(t, corner))) return 0.0;
   Normals normals;
@@ -131,7 +135,7 @@ double vertex_margin(ContactContext& context, const FingerCore& core, std::uint3
     if (mesh.edge_kind(at, k) == EdgeKind::boundary || mesh.edge_kind(at, (k + 2) % 3) == EdgeKind::boundary)
       normals.complete = false;
   });
-  const double margin = margin_of(core, {mesh.position(t, corner), Vec3(0.0), normals.cone()}, bound);
+  const double margin = margin_of(core, {mesh.position(t, corner), Vec3(0.0), normals.cone()}, bound, enough_m);
   if (margin > 0.0 || !normals.complete || !is_hollow_vertex(context, t, corner)) return margin;
   return std::numeric_limits<double>::max();
 }
@@ -139,7 +143,7 @@ double vertex_margin(ContactContext& context, const FingerCore& core, std::uint3
 }  // namespace
 
 FeatureExclusion exclude_features_by_core(ContactContext& context, const FingerCore& core,
-                                          const TriangleFeatures& features, const RankBound& bound,
+                                          const TriangleFeatures& features, const RankBound& bound, double enough_m,
                                           const FeatureMemory* memory) {
   const ContactMesh& mesh = context.cache.mesh();
   const std::uint32_t t = features.triangle;
@@ -156,12 +160,12 @@ FeatureExclusion exclude_features_by_core(ContactContext& context, const FingerC
     ask(edge_key(mesh, t, k), [&] {
       if (mesh.edge_kind(t, k) == EdgeKind::boundary) return 0.0;
       const Crease crease = crease_of(context.cache, context.settings.normal_form, t, k);
-      return is_hollow(crease) ? std::numeric_limits<double>::max() : edge_margin(crease, core, bound);
+      return is_hollow(crease) ? std::numeric_limits<double>::max() : edge_margin(crease, core, bound, enough_m);
     });
   }
   for (std::uint32_t k = 0; k < 3 && result.margin_m > 0.0; ++k)
     if (features.has_corner(k) && mesh.feature_corner(t, k))
-      ask(vertex_key(mesh, t, k), [&] { return vertex_margin(context, core, t, k, bound); });
+      ask(vertex_key(mesh, t, k), [&] { return vertex_margin(context, core, t, k, bound, enough_m); });
   return result;
 }
 

@@ -25,10 +25,11 @@ constexpr double kMostOff = 0.3;
 constexpr double kLittleOff = 0.05;
 
 /// Of the margin that would be enough: a piece that is known only roughly is not bisected for more.
-constexpr double kPieceShare = 0.5;
+constexpr double kPieceShare = 0.1;
 
-/// Bisections of a patch, and pieces looked at in all.
-constexpr int kPieceDepth = 6, kPieces = 40;
+/// Bisections of a patch, and pieces looked at in all. Along the flank of a thin core no piece is straight before it is
+/// thinner than the flank's normals are apart: there a solve tells more, and costs as much as six pieces.
+constexpr int kPieceDepth = 6, kPieceDepthThin = 3, kPieces = 40;
 
 /// The cone of the directions of some vectors about their sum.
 NormalCone cone_of(std::span<const Vec3> normals) {
@@ -46,6 +47,13 @@ SurfaceBounds bounds_of(std::span<const Vec3> points, const NormalCone& cone) {
   Box box;
   for (const Vec3& p : points) box.include(p);
   return {box.centre(), 0.5 * box.size(), cone};
+}
+
+/// By box and cone, of the whole patch.
+double margin_at_once(const PnPatch& patch, const FingerCore& core, double enough_m) {
+  std::array<Vec3, 10> points;
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = patch.control_point(i);
+  return touch_margin(core, bounds_of(points, cone_of(patch.normals)), enough_m);
 }
 
 /// The patch S - D n, raised so that its heights are ranks: by the reach less the ball along n.
@@ -80,9 +88,7 @@ struct PieceLook {
 PieceLook look_at_piece(const PatchPiece& piece, const FingerCore& core, const RankBound& bound, double enough_m,
                         bool last) {
   const PnPatch& patch = piece.patch;
-  std::array<Vec3, 10> points;
-  for (std::size_t i = 0; i < points.size(); ++i) points[i] = patch.control_point(i);
-  const double at_once = touch_margin(core, bounds_of(points, cone_of(patch.normals)), enough_m);
+  const double at_once = piece.depth == 0 ? margin_at_once(patch, core, enough_m) : 0.0;
   PieceLook look;
   look.proof.margin_m = at_once;
   look.proof.possible = !(at_once > 0.0);
@@ -166,11 +172,12 @@ PatchExclusion exclude_pieces(const ContactContext& context, const PnPatch& patc
   result.margin_m = std::numeric_limits<double>::max();
   result.possible = false;
   PossiblePlaces places;
+  const int most_depth = is_thin(core) ? kPieceDepthThin : kPieceDepth;
   for (int looks = 1; size > 0; ++looks) {
     const PatchPiece& piece = stack[--size];
     // More than the least margin of the others is for nothing, and any is, where one may hold a contact.
     const double enough = places.any() ? 0.0 : std::min(enough_m, result.margin_m);
-    const bool last = piece.depth >= kPieceDepth || looks >= kPieces;
+    const bool last = piece.depth >= most_depth || looks >= kPieces;
     const PieceLook look = look_at_piece(piece, core, bound, enough, last);
     const double wanted = std::min(kPieceShare * enough_m, enough);
     const bool unknown = look.proof.possible ? !look.clear : look.curved && look.proof.margin_m < wanted;
@@ -218,7 +225,7 @@ PatchExclusion exclude_by_core(ContactContext& context, const FingerCore& core, 
                                double enough_m, FeatureMemory* memory) {
   const ContactMesh& mesh = context.cache.mesh();
   if (mesh.interior(t)) return exclude_face_by_core(context, core, t, bound, enough_m);
-  const FeatureExclusion features = exclude_features_by_core(context, core, {t}, bound, memory);
+  const FeatureExclusion features = exclude_features_by_core(context, core, {t}, bound, enough_m, memory);
   if (!(features.margin_m > 0.0)) {
     PatchExclusion nothing = no_proof(context, core, t);
     nothing.feature = features.unproved;
@@ -234,7 +241,7 @@ bool core_excludes_at_a_glance(ContactContext& context, const FingerCore& core, 
                                double enough_m, FeatureMemory* memory) {
   FeatureExclusion features;
   if (!context.cache.mesh().interior(t)) {
-    features = exclude_features_by_core(context, core, {t}, bound, memory);
+    features = exclude_features_by_core(context, core, {t}, bound, enough_m, memory);
     if (features.margin_m < enough_m) return false;
   }
   const PatchPiece whole(context.cache.patch(t, context.settings.normal_form));

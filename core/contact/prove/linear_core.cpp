@@ -62,9 +62,8 @@ static double widest_sine(const std::array<Vec3, 6>& normals, const Vec3& axis) 
 }
 
 LinearCore segment_core(const FingerCore& core, const std::array<Vec3, 6>& normals, const Vec3& axis) {
-  constexpr double kThin = 0.05;
   LinearCore l;
-  if (!(core.width_m() < kThin * core.longest_m())) return l;
+  if (!is_thin(core)) return l;
   const Vec3 half = core.longest_m() * core.long_axis();
   const double along = glm::dot(half, axis);
   l.support = {core.centre(), Vec3(0.0), 0.0};

@@ -16,9 +16,9 @@ constexpr double kExact = 0.1 * kHeightGuess;
 /// In the patch's parameters: shorter ones lead nowhere.
 constexpr double kNoStep = 1e-9;
 
-/// Half width to half length of a core that counts as thin, travel to half its length above which it is approached,
-/// steps of that, and how near to its ends that begins.
-constexpr double kThin = 0.05, kFar = 0.05, kNearEnd = 0.99;
+/// Travel to half the length of a thin core above which it is approached, steps of that, and how near to its ends that
+/// begins.
+constexpr double kFar = 0.05, kNearEnd = 0.99;
 constexpr int kApproaches = 8;
 
 /// The finger's contact with a patch's plane at a place, and Newton's step to where the travel vanishes.
@@ -42,8 +42,6 @@ struct PatchStep {
     if (det > 0.0) step = Vec2(glm::dot(contact.travel, across_v), -glm::dot(contact.travel, across_u)) / det;
   }
 };
-
-bool is_thin(const FingerCore& core) { return core.width_m() < kThin * core.longest_m(); }
 
 /// The longest part of a step that stays on the patch.
 double part_on_patch(const Vec2& uv, const Vec2& step) {

@@ -89,7 +89,7 @@ PatchExclusion exclude_side(ContactContext& context, const PartOfTriangle& part,
   proof.margin_m = is_round(context.finger)
                        ? exclude_feature_contacts(context.cache, side, context.settings.normal_form,
                                                   context.pose.position, bound, enough_m, memory)
-                       : exclude_features_by_core(context, *context.core, side, bound).margin_m;
+                       : exclude_features_by_core(context, *context.core, side, bound, enough_m).margin_m;
   if (proof.margin_m > 0.0) proof.possible = false;
   return proof;
 }

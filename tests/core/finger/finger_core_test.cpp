@@ -114,7 +114,7 @@ TEST_CASE("a part of the surface that is touched is never said to be out of touc
   Random random(64);
   for (const FingerShape shape : {FingerShape::ellipsoid, FingerShape::capsule}) {
     CAPTURE(static_cast<int>(shape));
-    int missed = 0, left_out = 0, margins = 0;
+    int missed = 0, left_out = 0, margins = 0, told_more = 0, at_a_glance = 0;
     for (int i = 0; i < rounds(20000); ++i) {
       const Finger finger = any_finger(shape, random);
       FingerPose pose{Vec3(0.0), random.orientation()};
@@ -137,10 +137,14 @@ TEST_CASE("a part of the surface that is touched is never said to be out of touc
       const FingerCore there(finger, other);
       const double margin = touch_margin(there, part);
       missed += margin > way * (1.0 + 1e-9) + 1e-12;
-      missed += !can_touch(there, part, lambda + way + 1e-12, way);
+      missed += !can_touch(there, part, lambda + way + 1e-12, way) + !can_touch_at_a_glance(there, part, way);
+      told_more += can_touch(there, part, 1.0, 0.0) && !can_touch_at_a_glance(there, part, 0.0);
+      at_a_glance += !can_touch_at_a_glance(there, part, 0.0);
       margins += margin > 0.1 * way;
     }
     CHECK(missed == 0);
+    CHECK(told_more == 0);
+    CHECK(at_a_glance > rounds(20000) / 100);
     CHECK(left_out > rounds(20000) / 10);
     CHECK(margins > rounds(20000) / 200);
   }

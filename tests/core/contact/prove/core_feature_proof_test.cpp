@@ -48,8 +48,8 @@ TEST_CASE("creases and vertices that one triangle has excluded for an ellipsoid 
       context.core = &core;
       FeatureMemory memory;
       const PatchExclusion proof = exclude_by_core(context, core, t, bound, 1e-4, &memory);
-      const FeatureExclusion features = exclude_features_by_core(context, core, {t}, bound);
-      const FeatureExclusion again = exclude_features_by_core(context, core, {t}, bound, &memory);
+      const FeatureExclusion features = exclude_features_by_core(context, core, {t}, bound, 1e9);
+      const FeatureExclusion again = exclude_features_by_core(context, core, {t}, bound, 1e9, &memory);
       CHECK((proof.feature != PatchExclusion::kNoFeature) == !(features.margin_m > 0.0));
       if (!proof.possible) {
         ++excluded;
@@ -63,7 +63,7 @@ TEST_CASE("creases and vertices that one triangle has excluded for an ellipsoid 
       ++unproved;
       CHECK(proof.feature == features.unproved);
       memory.add(proof.feature);
-      CHECK(exclude_features_by_core(context, core, {t}, bound, &memory).unproved != proof.feature);
+      CHECK(exclude_features_by_core(context, core, {t}, bound, 1e9, &memory).unproved != proof.feature);
     }
     CHECK(excluded > 0);
     CHECK(unproved > 0);
