@@ -1,5 +1,5 @@
-# cmake -DPROGRAM=... -DPREFIX=... -DSERIAL=... -DFILE_OUT=... -P list_files.cmake: writes a list for ctest with a test
-# for each source file of a doctest program, which runs all cases of the file in one process.
+# cmake -DPROGRAM=... -DPREFIX=... -DSERIAL=... -DSERIAL_FILES=... -DFILE_OUT=... -P list_files.cmake: writes a list for
+# ctest with a test for each source file of a doctest program, which runs all cases of the file in one process.
 cmake_minimum_required(VERSION 3.25)
 execute_process(COMMAND ${PROGRAM} --list-test-cases --reporters=xml OUTPUT_VARIABLE listed
   COMMAND_ERROR_IS_FATAL ANY)
@@ -10,7 +10,11 @@ set(serial)
 foreach(case IN LISTS cases)
   string(REGEX REPLACE ".* filename=\"([^\"]*)\".*" "\\1" file "${case}")
   list(APPEND files ${file})
-  if(NOT SERIAL STREQUAL "" AND case MATCHES "name=\"[^\"]*(${SERIAL})")
+  if(NOT SERIAL_FILES STREQUAL "")
+    if(file MATCHES "${SERIAL_FILES}")
+      list(APPEND serial ${file})
+    endif()
+  elseif(NOT SERIAL STREQUAL "" AND case MATCHES "name=\"[^\"]*(${SERIAL})")
     list(APPEND serial ${file})
   endif()
 endforeach()

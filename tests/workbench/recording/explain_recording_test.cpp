@@ -1,6 +1,7 @@
 #include "workbench/recording/explain_recording.h"
 
 #include "core/lab/explain/explain_run.h"
+#include "tests/support/sanitized.h"
 #include "tests/workbench/recording/recording_fixture.h"
 
 #include <map>
@@ -59,7 +60,8 @@ std::map<std::uint64_t, TickExplanation> explained_one_by_one(const std::filesys
 
 }  // namespace
 
-TEST_CASE("any tick of a recording is explained as the tick itself is, from the last kept state on") {
+TEST_CASE("any tick of a recording is explained as the tick itself is, from the last kept state on" *
+          doctest::skip(testing::kSanitized)) {
   const testing::TempFolder folder;
   const std::string path = folder.file("a.sqlite");
   record_small_gains(path);
