@@ -24,7 +24,7 @@ struct FeatureExclusion {
 /// Asks the creases and boundaries and their ends for contacts of a rank under `bound`, but for those that `memory`
 /// knows. Once a margin is `enough_m`, no more is asked for.
 FeatureExclusion exclude_features_by_core(ContactContext& context, const FingerCore& core,
-                                          const TriangleFeatures& features, const RankBound& bound,
-                                          double enough_m, const FeatureMemory* memory = nullptr);
+                                          const TriangleFeatures& features, const RankBound& bound, double enough_m,
+                                          const FeatureMemory* memory = nullptr);
 
 }  // namespace tangent
