@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
+#include <vector>
 
 using namespace tangent;
 using namespace tangent::test;
@@ -234,12 +236,19 @@ TEST_CASE("flat patches are told from curved ones, and sampled like them to roun
 }
 
 TEST_CASE("on a sharp edge the turn that faces a finger is found in any orientation, with the long side on it, too") {
-  const ScenePtr scene = scene_of(*generate_mesh("cube"));
-  const ContactMesh& mesh = scene->mesh();
-  PatchCache cache(mesh);
   Random random(74);
-  for (const FingerShape shape : kFingerShapes) {
+  int uneven = 0;
+  for (const auto& [body, shape] : std::vector<std::pair<const char*, FingerShape>>{{"cube", FingerShape::point},
+                                                                                    {"cube", FingerShape::sphere},
+                                                                                    {"cube", FingerShape::ellipsoid},
+                                                                                    {"cube", FingerShape::capsule},
+                                                                                    {"cone", FingerShape::ellipsoid},
+                                                                                    {"cone", FingerShape::capsule}}) {
+    CAPTURE(std::string(body));
     CAPTURE(static_cast<int>(shape));
+    const ScenePtr scene = scene_of(*generate_mesh(body));
+    const ContactMesh& mesh = scene->mesh();
+    PatchCache cache(mesh);
     const Finger finger = finger_of(shape);
     int tried = 0;
     double worst = 0.0;
@@ -248,6 +257,7 @@ TEST_CASE("on a sharp edge the turn that faces a finger is found in any orientat
       if (mesh.edge_kind(t, k) != EdgeKind::crease) continue;
       ++tried;
       const EdgeFan& fan = cache.fan(t, k, random.in(0.0, 1.0), NormalForm::bernstein);
+      uneven += !fan.even;
       const double turn = random.in(0.0, std::atan2(fan.far.y, fan.far.x));
       SurfaceSample s;
       edge_sample(fan, {std::cos(turn), std::sin(turn)}, s);
@@ -260,4 +270,5 @@ TEST_CASE("on a sharp edge the turn that faces a finger is found in any orientat
     }
     CHECK(worst < 1e-9);
   }
+  CHECK(uneven > 0);
 }
