@@ -1,6 +1,7 @@
 #include "core/contact/edge_fan.h"
 
 #include "core/base/tolerances.h"
+#include "core/finger/facing_normal.h"
 #include "core/finger/plane_contact.h"
 
 #include <algorithm>
@@ -174,10 +175,20 @@ class TravelAcross {
   Vec2 d_;
 };
 
+/// Where the search for a turn begins: facing the finger's centre, or of a capsule the place of its axis that is
+/// nearest, seen along the edge.
+Vec2 first_turn(const EdgeFan& fan, const Finger& finger, const FingerPose& pose) {
+  const Vec3 d = pose.position - fan.point;
+  if (finger.shape != FingerShape::capsule) return turn_of(fan, d);
+  const Vec3 half = finger.half_length_m * section_of(pose.orientation).distal;
+  const Vec2 seen(glm::dot(half, fan.e1), glm::dot(half, fan.e2)), from(glm::dot(d, fan.e1), glm::dot(d, fan.e2));
+  return turn_of(fan, towards_axis(d, half, -glm::dot(from, seen) / glm::dot(seen, seen)));
+}
+
 }  // namespace
 
 Vec2 facing_turn(const EdgeFan& fan, const Finger& finger, const FingerPose& pose) {
-  Vec2 turn = turn_of(fan, pose.position - fan.point);
+  Vec2 turn = first_turn(fan, finger, pose);
   if (is_round(finger)) return turn;
   // Other shapes: Newton on the travel across. Where its rate is positive, the least penetration lies further on
   // (finger/facing_normal.h). On the flank of a long finger Newton's steps overshoot it for ever, so they are kept

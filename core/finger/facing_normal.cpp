@@ -37,7 +37,25 @@ Vec3 downhill_turn(const Mat3& h, double sign, const Vec3& normal, const Vec3& t
   return size > kLongestTurn ? (kLongestTurn / size) * turn : turn;
 }
 
+/// Where the descent begins: facing the finger's centre, or from before a capsule the nearest place of its axis.
+Vec3 first_normal(const Finger& finger, const FingerPose& pose, const Vec3& d, FacingSide side) {
+  if (side == FacingSide::back) return unit(-d);
+  if (finger.shape != FingerShape::capsule) return unit(d);
+  const Vec3 half = finger.half_length_m * section_of(pose.orientation).distal;
+  const Vec3 towards = towards_axis(d, half, -glm::dot(d, half) / glm::dot(half, half));
+  return towards != Vec3(0.0) ? unit(towards) : unit(d);
+}
+
 }  // namespace
+
+Vec3 towards_axis(const Vec3& d, const Vec3& half, double along) {
+  constexpr double kNearEnd = 0.999;
+  const double length = glm::length(half);
+  if (!(length > 0.0) || std::isnan(along)) return d;
+  const double g = std::clamp(along, -kNearEnd, kNearEnd);
+  const Vec3 towards = d + g * half;
+  return towards - (kSpindle * g / std::sqrt(1.0 - g * g) * glm::length(towards) / length) * half;
+}
 
 Vec3 facing_normal(const Finger& finger, const FingerPose& pose, const Vec3& point, const Vec3& start,
                    FacingSide side) {
@@ -45,8 +63,8 @@ Vec3 facing_normal(const Finger& finger, const FingerPose& pose, const Vec3& poi
   const double sign = side == FacingSide::front ? 1.0 : -1.0;
   const Vec3 d = pose.position - point;
   const double d2 = glm::dot(d, d);
-  Vec3 normal = d2 > 0.0 ? sign * d / std::sqrt(d2) : start;
-  if (is_round(finger)) return normal;
+  if (is_round(finger)) return d2 > 0.0 ? sign * d / std::sqrt(d2) : start;
+  Vec3 normal = d2 > 0.0 ? first_normal(finger, pose, d, side) : start;
   PlaneContact c = contact_on_plane(finger, pose, point, normal);
   for (int i = 0; i < kTurns; ++i) {
     Vec3 turn = downhill_turn(offset_derivative(finger, pose, normal, c.penetration_m), sign, normal, c.travel);

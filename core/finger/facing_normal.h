@@ -18,4 +18,10 @@ enum class FacingSide : std::uint8_t {
 Vec3 facing_normal(const Finger& finger, const FingerPose& pose, const Vec3& point, const Vec3& start,
                    FacingSide side = FacingSide::front);
 
+/// With `d` from a point to a capsule's centre and `half` half its axis: from the point to the place centre + along *
+/// half on the axis, leaning as a normal does that belongs to that place. A normal's core point is g half off the
+/// centre where it leans by -w g / (L sqrt(1 - g^2)) towards `half`, w half the core's width and L = |half|. `along`:
+/// any number; beyond an end counts as the end.
+Vec3 towards_axis(const Vec3& d, const Vec3& half, double along);
+
 }  // namespace tangent

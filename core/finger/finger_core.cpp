@@ -12,27 +12,20 @@ namespace {
 constexpr double kWideCone = 0.7;     // cosine: of wider cones nothing is proved along single directions ...
 constexpr double kWidestCone = 0.05;  // ... or at all
 
-double radius_of(const Vec3& half) { return std::sqrt(glm::dot(half, half)); }
-
-double sine_of(double cosine) { return std::sqrt(std::max(0.0, 1.0 - cosine * cosine)); }
-
 /// The support of a part's axis, seen from the part's middle.
 struct Sight {
   CoreSupport support;
-  Vec3 away{0.0};                     ///< from the part's middle to the support
-  double away2 = 0.0, along = 0.0;    ///< |away|^2, away along the axis
-  double sine = 0.0, radius_m = 0.0;  ///< of the cone's half angle; of the ball about the box
+  Vec3 away{0.0};                   ///< from the part's middle to the support
+  double away2 = 0.0, along = 0.0;  ///< |away|^2, away along the axis
 
   Sight(const FingerCore& core, const SurfaceBounds& part)
       : support(core.support(part.normals.axis)),
         away(support.point - part.middle),
         away2(glm::dot(away, away)),
-        along(glm::dot(away, part.normals.axis)),
-        sine(sine_of(part.normals.cos_half)),
-        radius_m(radius_of(part.half)) {}
+        along(glm::dot(away, part.normals.axis)) {}
 
   /// Then no direction tells more.
-  bool is_near() const { return away2 < radius_m * radius_m; }
+  bool is_near(const SurfaceBounds& part) const { return away2 < part.radius_m * part.radius_m; }
 };
 
 /// What a cone of normals does to it.
@@ -46,17 +39,17 @@ struct Spread {
 
 Spread spread_over(const FingerCore& core, const SurfaceBounds& part, const Sight& sight) {
   Spread s;
-  s.tangent = sight.sine / part.normals.cos_half;
+  s.tangent = part.sine / part.normals.cos_half;
   s.step_m = core.widest_step(sight.support, s.tangent);
   s.least_length_m = sight.support.length - s.step_m;
   return s;
 }
 
 /// What only misses along single directions need.
-void bound_curving(const FingerCore& core, const Sight& sight, Spread& s) {
+void bound_curving(const FingerCore& core, const SurfaceBounds& part, const Sight& sight, Spread& s) {
   s.bend = core.bend(sight.support, s.step_m);
   const double moves = core.largest_radius(sight.support.length) * s.tangent + core.longest_m() * s.bend;
-  s.lambda_m = std::sqrt(sight.away2) + sight.radius_m + std::min(2.0 * core.longest_m(), moves);
+  s.lambda_m = std::sqrt(sight.away2) + part.radius_m + std::min(2.0 * core.longest_m(), moves);
 }
 
 double extent(const Vec3& half, const Vec3& t) { return glm::dot(half, glm::abs(t)); }
@@ -73,7 +66,7 @@ double spread_along(const FingerCore& core, const Sight& sight, const Spread& s,
 /// Where the core's spread is left out of account already, that: not over 0.
 double miss_along(const FingerCore& core, const SurfaceBounds& part, const Sight& sight, const Spread& s,
                   const Vec3& t) {
-  const double unspread = std::abs(glm::dot(sight.away, t)) - extent(part.half, t) - sight.sine * s.lambda_m;
+  const double unspread = std::abs(glm::dot(sight.away, t)) - extent(part.half, t) - part.sine * s.lambda_m;
   return unspread > 0.0 ? unspread - spread_along(core, sight, s, t) : unspread;
 }
 
@@ -82,12 +75,19 @@ double miss_along(const FingerCore& core, const SurfaceBounds& part, const Sight
 double miss_of_cone(const FingerCore& core, const SurfaceBounds& part, const Sight& sight) {
   const double cosine = part.normals.cos_half;
   const double across = std::sqrt(std::max(0.0, sight.away2 - sight.along * sight.along));
-  const double unspread = across * cosine - std::abs(sight.along) * sight.sine;
-  if (unspread <= sight.radius_m) return 0.0;  // within the cone
+  const double unspread = across * cosine - std::abs(sight.along) * part.sine;
+  if (unspread <= part.radius_m) return 0.0;  // within the cone
   const double chord = std::sqrt(2.0 - 2.0 * cosine);
   const double way = 1.12 * chord;  // over the sphere of normals, up to a right angle
   const double radius = core.largest_radius(sight.support.length - core.longest_m() * chord);
-  return unspread - std::min(2.0 * core.longest_m(), radius * way) - sight.radius_m;
+  return unspread - std::min(2.0 * core.longest_m(), radius * way) - part.radius_m;
+}
+
+bool is_missed_by_cone(const FingerCore& core, const SurfaceBounds& part, const Sight& sight, double way_m) {
+  const double missed = miss_of_cone(core, part, sight);
+  if (!(missed > way_m)) return false;  // no slide is shorter
+  const double least_length = spread_over(core, part, sight).least_length_m;
+  return missed > core.slide_m(core.longest_m(), least_length, way_m);
 }
 
 /// By how far the finger's centre misses every line through the part along its normals, beyond what one that touches
@@ -97,7 +97,7 @@ double miss_of_centre(const FingerCore& core, const SurfaceBounds& part) {
   const Vec3 d = core.centre() - part.middle;
   const double along = std::abs(glm::dot(d, part.normals.axis));
   const double across = std::sqrt(std::max(0.0, glm::dot(d, d) - along * along));
-  return across * cosine - along * sine_of(cosine) - radius_of(part.half) - core.lever_m();
+  return across * cosine - along * part.sine - part.radius_m - core.lever_m();
 }
 
 /// Directions in which a miss is looked for: to where the axis' support misses the middle, and across the core's
@@ -108,7 +108,7 @@ struct Directions {
 };
 Directions directions(const FingerCore& core, const SurfaceBounds& part, const Sight& sight, const Spread& s) {
   Directions d;
-  const double room = sight.sine * s.lambda_m;
+  const double room = part.sine * s.lambda_m;
   if (!(sight.away2 - sight.along * sight.along > room * room)) return d;  // a miss in no direction
   const auto add = [&](const Vec3& v, double least2) {
     const double length2 = glm::dot(v, v);
@@ -230,36 +230,31 @@ double FingerCore::way_within(double half_width_m, double least_length_m, double
   return std::max({along, slow, 0.5 * room_m - half_width_m});
 }
 
-double way_to_face(const FingerCore& core, const SurfaceBounds& part) {
-  return part.normals.cos_half < kWidestCone ? 0.0 : miss_of_centre(core, part);
+// As miss_of_centre is over the way, without its root.
+bool is_beside(const FingerCore& core, const SurfaceBounds& part, double way_m) {
+  const double cosine = part.normals.cos_half;
+  if (cosine < kWidestCone) return false;
+  const Vec3 d = core.centre() - part.middle;
+  const double along = std::abs(glm::dot(d, part.normals.axis));
+  const double room = along * part.sine + part.radius_m + core.lever_m() + way_m;
+  return (glm::dot(d, d) - along * along) * cosine * cosine > room * room;
 }
-
-namespace {
-
-bool is_missed_by_cone(const FingerCore& core, const SurfaceBounds& part, const Sight& sight, double way_m) {
-  const double missed = miss_of_cone(core, part, sight);
-  if (!(missed > way_m)) return false;  // no slide is shorter
-  const double least_length = spread_over(core, part, sight).least_length_m;
-  return missed > core.slide_m(core.longest_m(), least_length, way_m);
-}
-
-}  // namespace
 
 bool can_touch_at_a_glance(const FingerCore& core, const SurfaceBounds& part, double way_m) {
   if (part.normals.cos_half < kWidestCone) return true;
   const Sight sight(core, part);
-  return sight.is_near() || !is_missed_by_cone(core, part, sight, way_m);
+  return sight.is_near(part) || !is_missed_by_cone(core, part, sight, way_m);
 }
 
 bool can_touch(const FingerCore& core, const SurfaceBounds& part, double most_m, double way_m) {
   const double cosine = part.normals.cos_half;
   if (cosine < kWidestCone) return true;
   const Sight sight(core, part);
-  if (sight.is_near()) return true;
+  if (sight.is_near(part)) return true;
   if (is_missed_by_cone(core, part, sight, way_m)) return false;
   if (cosine < kWideCone) return true;
   Spread s = spread_over(core, part, sight);
-  bound_curving(core, sight, s);
+  bound_curving(core, part, sight, s);
   // p(N) lies no lower over the axis' plane than p of the axis.
   if (sight.along - extent(part.half, part.normals.axis) - s.lambda_m * (1.0 - cosine) > most_m) return false;
   const Directions d = directions(core, part, sight, s);
@@ -278,7 +273,7 @@ double touch_margin(const FingerCore& core, const SurfaceBounds& part, double en
   Spread s = spread_over(core, part, sight);
   margin = std::max(margin, core.way_within(core.longest_m(), s.least_length_m, miss_of_cone(core, part, sight)));
   if (part.normals.cos_half < kWideCone || (margin > 0.0 && margin >= enough_m)) return margin;
-  bound_curving(core, sight, s);
+  bound_curving(core, part, sight, s);
   const Directions d = directions(core, part, sight, s);
   for (const Vec3& t : std::span(d.t).first(static_cast<std::size_t>(d.count))) {
     const double miss = miss_along(core, part, sight, s, t);

@@ -13,6 +13,10 @@
 
 #include "core/finger/finger.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace tangent {
 
 /// Of a normal: the core's point furthest along -N, and what its neighbourhood follows from.
@@ -136,12 +140,20 @@ inline bool is_thin(const FingerCore& core) {
 
 /// A part of the surface by bounds: its points in a box, its normals in a cone.
 struct SurfaceBounds {
-  Vec3 middle{0.0}, half{0.0};  ///< of the box, m
+  Vec3 middle, half;  ///< of the box, m
   NormalCone normals;
+  double radius_m, sine;  ///< of the ball about the box; of the cone's half angle
+
+  SurfaceBounds(const Vec3& box_middle, const Vec3& box_half, const NormalCone& cone)
+      : middle(box_middle),
+        half(box_half),
+        normals(cone),
+        radius_m(std::sqrt(glm::dot(half, half))),
+        sine(std::sqrt(std::max(0.0, 1.0 - cone.cos_half * cone.cos_half))) {}
 };
 
-/// How far the finger has to go at least until it can touch such a part at all, at a glance; not over 0: it may now.
-double way_to_face(const FingerCore& core, const SurfaceBounds& part);
+/// Whether no finger within `way_m` touches such a part, at the first glance: all lines along its normals pass by.
+bool is_beside(const FingerCore& core, const SurfaceBounds& part, double way_m);
 /// Which contacts a finger may have on such a part: p(N) - S = lambda N with lambda up to `most_m`, which is the ball's
 /// radius less the depth.
 bool can_touch(const FingerCore& core, const SurfaceBounds& part, double most_m, double way_m);

@@ -9,6 +9,11 @@
 namespace tangent {
 namespace {
 
+Gone gone_to(const ContactContext& context, const TickState& state, double gone) {
+  const FingerPose before{context.pose.position - context.moved, state.last_orientation};
+  return {gone, gone_m(state.clearance, context.finger, before)};
+}
+
 /// Asks whether another place can be deeper than the followed contact, and only then looks.
 void watch_others(ContactContext& context, const SearchStructures& search, TickState& state, DecidedContact& decided) {
   const double rank = contact_rank(context.finger, decided.contact.contact);
@@ -16,7 +21,8 @@ void watch_others(ContactContext& context, const SearchStructures& search, TickS
   const double gone = gone_m(state.clearance, context.finger, context.pose);
   if (!deeper_possible(state.clearance, context.pose, gone, bound)) return;
   const double ahead = look_ahead_m(context, rank, state.clearance.ahead);
-  const RivalResult rival = find_rival(context, search, decided.contact, {bound, ahead, false}, state.clearance, gone);
+  const RivalResult rival = find_rival(context, search, decided.contact, {bound, ahead, false}, state.clearance,
+                                       gone_to(context, state, gone));
   const double depth = state.unentered ? 0.0 : decided.contact.contact.penetration_m;
   const bool taken_over = decide_rival(context, rival, depth, state.plane, decided);
   state.clearance = taken_over ? Clearance{} : rival.clearance;
@@ -48,8 +54,8 @@ bool look_for_touched(ContactContext& context, const SearchStructures& search, d
   const double rank = contact_rank(context.finger, decided.contact.contact);
   const double ahead = look_ahead_m(context, rank, state.clearance.ahead);
   const bool stays = bound > takeover_m && !touched.full();
-  RivalResult rival =
-      find_rival(context, search, decided.contact, {bound, ahead, stays, &touched}, state.clearance, gone);
+  RivalResult rival = find_rival(context, search, decided.contact, {bound, ahead, stays, &touched}, state.clearance,
+                                 gone_to(context, state, gone));
   state.clearance = rival.clearance;
   // Where the contact was lost and a shallower one is gone on with, what the lost one was counts, too.
   const double depth =

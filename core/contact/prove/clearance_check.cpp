@@ -9,6 +9,14 @@ double turned_m(const Finger& finger, const Quat& from, const Quat& to) {
   return finger.reach_m() * 2.0 * std::acos(std::min(1.0, std::abs(glm::dot(from, to))));
 }
 
+// Distances are convex along a straight way, and so are angles of turning as small as margins allow.
+bool stayed_within(double then_m, double before_m, double now_m, double here_m, double moved_m) {
+  constexpr double kRounded = 1e-6;  // far more than a margin kept as a float is
+  if (here_m >= moved_m) return true;
+  const double last = here_m / moved_m;  // part of the way
+  return last * before_m + (1.0 - last) * now_m <= then_m - kRounded * now_m;
+}
+
 // Shortened by far more than floats are rounded by: at a margin itself a contact may be there.
 void set_free(Clearance& known) {
   double least = known.margin_m;

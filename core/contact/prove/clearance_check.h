@@ -44,6 +44,11 @@ inline bool deeper_possible(const Clearance& known, const FingerPose& pose, doub
   return gone > known.free_m || is_beyond(known, pose, gone, bound_m);
 }
 
+/// Whether a finger that came `moved_m` straight here since the last tick was within one of two margins all the way:
+/// `then_m` from a place that was `before_m` away at the last tick, within that margin, and is `now_m` away, or
+/// `here_m` from here.
+bool stayed_within(double then_m, double before_m, double now_m, double here_m, double moved_m);
+
 /// The least of the margins, as the radius up to which nothing is asked.
 void set_free(Clearance& known);
 

@@ -476,18 +476,17 @@ bool ContactHierarchy::touchable(const Node& node, const ContactQuery& q, double
   const bool is_led = !here && q.core_ahead;
   const FingerCore& core = is_led ? *q.core_ahead : *q.core;
   const double way = here ? 0.0 : q.margin_m;
-  if (way_to_face(core, part) > way) return false;
+  if (is_beside(core, part, way)) return false;
   // No rank changes by more than the finger goes.
-  const double nearest = is_led ? q.nearest_m - std::sqrt(glm::dot(q.ahead, q.ahead)) : q.nearest_m;
+  const double led = is_led ? std::sqrt(glm::dot(q.ahead, q.ahead)) : 0.0, nearest = q.nearest_m - led;
   // Boxes that are no further off than that can't be so far outside.
   const double far = std::max(way, core.outside_at(nearest - core.lever_m()));
-  const double farther = far + core.inner_m();
-  const double led = q.nearest_m - nearest;
-  if (std::sqrt(box2) > farther - led && core.apart_m(part.middle, part.half) > far) return false;
-  // Single directions tell of parts that are small, or flat, not of others.
-  constexpr float kFlat = 0.9999f;
-  const bool closely = (node.link & kLeaf) || node.cos_half > kFlat;
-  return closely ? can_touch(core, part, most_lambda_m(core, nearest), way) : can_touch_at_a_glance(core, part, way);
+  const double off = far + core.inner_m() - led;
+  if ((off < 0.0 || box2 > off * off) && core.apart_m(part.middle, part.half) > far) return false;
+  // Single directions tell of parts that are small, or flat, not of others, and wide ones no glance leaves out.
+  constexpr float kFlat = 0.9999f, kWide = 0.8f;
+  if ((node.link & kLeaf) || node.cos_half > kFlat) return can_touch(core, part, most_lambda_m(core, nearest), way);
+  return node.cos_half < kWide || can_touch_at_a_glance(core, part, way);
 }
 
 void limit_query(ContactQuery& query, const Finger& finger, double rank) {

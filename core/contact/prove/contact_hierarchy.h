@@ -181,6 +181,7 @@ inline double ContactHierarchy::reach2(const Node& node, const ContactQuery& q, 
   if (q.steady_only) {
     const Vec3 beside = glm::max(low - q.region.max, q.region.min - high);
     if (std::max({beside.x, beside.y, beside.z}) > 0.0) return -1.0;
+    if ((node.link & kLeaf) && !stays(node, q)) return -1.0;
   }
   const Vec3 gap = glm::max(glm::max(low - q.centre, q.centre - high), Vec3(0.0));
   const double box2 = glm::dot(gap, gap);
@@ -231,9 +232,7 @@ bool ContactHierarchy::visit_on(ContactQuery& query, Visit& visit) const {
     const Node& node = nodes_[entry.node];
     if (node.link & kLeaf) {
       const std::uint32_t entry_of_leaf = order_[node.link & ~kLeaf];
-      const bool steady = stays(node, query);
-      if (query.steady_only && !steady) continue;
-      query.here_m = steady ? 0.0 : query.margin_m;
+      query.here_m = query.steady_only || stays(node, query) ? 0.0 : query.margin_m;
       query.part = static_cast<SearchPart>(entry_of_leaf >> kPartShift);
       if (!visit(entry_of_leaf & kTriangleBits, query)) return false;
       continue;

@@ -68,11 +68,11 @@ struct Slack {
   double height_matters_m;
   Vec2 longest{0.0};  ///< across it f is known best
 
-  /// By how much f may be wrong across a direction of that length.
-  double beside(const Vec2& side, double length) const {
+  /// By how much f may be wrong across a direction, times its length, besides rest_m.
+  double beside(const Vec2& side) const {
     double widest = 0.0;
     for (const Vec2& x : std::span(spread).first(spread_count)) widest = std::max(widest, std::abs(cross(x, side)));
-    return rest_m + (widest + std::abs(cross(bend, side))) / length;
+    return widest + std::abs(cross(bend, side));
   }
 
   /// Whether what looks like that value may be 0, as far as the longest direction tells: no part that has it can be
@@ -119,11 +119,14 @@ struct Part {
     double most = 0.0;
     for (const Vec2& side : {perpendicular(f0 + f1 + f2), slack.longest, f1 - f0, f2 - f1, f0 - f2}) {
       // All coefficients are no clearer than those of the corners, which mostly tell that there is no room.
-      const double corners = corners_beside(side);
+      double turned = 1.0;
+      const double corners = corners_beside(side, turned);
       if (!(corners > 0.0)) continue;
-      const double length = std::sqrt(glm::dot(side, side)), room = slack.beside(side, length);
-      if (!(corners / length - room > most)) continue;
-      most = std::max(most, beside(side) - room);
+      const double length = std::sqrt(glm::dot(side, side)), spread = slack.beside(side);
+      const double wanted = spread + (slack.rest_m + most) * length;
+      if (!(corners > wanted)) continue;
+      const double least = least_across(turned * side);
+      if (least > wanted) most = (least - spread) / length - slack.rest_m;
       if (most > 0.0 && most >= enough_m) return most;
     }
     return most;
@@ -154,11 +157,12 @@ struct Part {
     return std::min(least[0], least[1]);
   }
 
-  /// The least of the corners' coefficients across a direction, times its length; not over 0 if they lie on both sides.
-  double corners_beside(const Vec2& side) const {
+  /// The least of the corners' coefficients across a direction or, as `turned` says, its opposite, times its length;
+  /// not over 0 if they lie on both sides.
+  double corners_beside(const Vec2& side, double& turned) const {
     const auto across = [&](const Vec2& x) { return side.y * x.x - side.x * x.y; };
     const double a = across(at_corner(0)), b = across(at_corner(1)), c = across(at_corner(2));
-    const double turned = a > 0.0 ? 1.0 : -1.0;
+    turned = a > 0.0 ? 1.0 : -1.0;
     return std::min({turned * a, turned * b, turned * c});
   }
 

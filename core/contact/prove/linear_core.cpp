@@ -10,20 +10,21 @@ LinearCore linear_core(const FingerCore& core, const std::array<Vec3, 6>& normal
   LinearCore l;
   l.support = core.support(axis);
   const double length = l.support.length;
+  const Vec3 scaled_axis = length * l.support.direction;
   std::array<Vec3, 6> scaled;
-  double least = 1e300, most = 0.0, shortest = 1.0, low = 0.0, high = 0.0, across2 = 0.0;
+  double least = 1e300, most = 0.0, shortest2 = 1.0, low = 0.0, high = 0.0, across2 = 0.0;
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const double along = glm::dot(normals[i], axis);
-    const double cosine = along / std::sqrt(std::max(1e-300, glm::dot(normals[i], normals[i])));
-    if (!(cosine > 0.3)) return l;
-    const Vec3& v = scaled[i] = core.scaled(normals[i] / along - axis);
+    const double cosine2 = along * along / std::max(1e-300, glm::dot(normals[i], normals[i]));
+    if (!(along > 0.0 && cosine2 > 0.09)) return l;
+    const Vec3& v = scaled[i] = (1.0 / along) * core.scaled(normals[i]) - scaled_axis;
     const double b = glm::dot(v, l.support.direction);
     low = std::min(low, b);
     high = std::max(high, b);
     across2 = std::max(across2, glm::dot(v, v) - b * b);
     least = std::min(least, along);
     most = std::max(most, along);
-    shortest = std::min(shortest, cosine);
+    shortest2 = std::min(shortest2, cosine2);
   }
   const double least_length = length + low;
   if (!(least_length > 1e-9 * core.longest_m())) return l;
@@ -31,7 +32,7 @@ LinearCore linear_core(const FingerCore& core, const std::array<Vec3, 6>& normal
   const Vec3 to_centre = core.centre() - l.support.point;
   l.bend = 0.5 * shortened * (to_centre - glm::dot(to_centre, axis) * axis);
   l.along_m = 0.5 * shortened * length;
-  l.rest_m = l.along_m * std::sqrt(std::max(0.0, 1.0 - shortest * shortest));
+  l.rest_m = l.along_m * std::sqrt(1.0 - shortest2);
   const double unsloped = std::sqrt(glm::dot(l.bend, l.bend)) + l.rest_m;
   if (unsloped >= most_off_m) return l;
   double steepest2 = 0.0;
@@ -44,7 +45,7 @@ LinearCore linear_core(const FingerCore& core, const std::array<Vec3, 6>& normal
   l.point = l.support.point + 0.5 * shortened * to_centre;
   l.scale = 2.0 / (least + most);
   l.slope_share = turned * length + (most - least) / (most + least);
-  l.least_length_m = shortest * least_length;
+  l.least_length_m = std::sqrt(shortest2) * least_length;
   const double off = l.slope_share * std::sqrt(steepest2) + std::sqrt(glm::dot(l.bend, l.bend)) + l.rest_m;
   if (off < most_off_m) l.off_m = off;
   return l;

@@ -109,7 +109,7 @@ class RivalSearch {
   }
 
   /// Only the watched triangles whose time has come; `result.clearance` counts from the present pose.
-  void once_more(RivalResult& result) {
+  void once_more(const Gone& gone, RivalResult& result) {
     Clearance& clearance = result.clearance;
     std::uint32_t kept = 0;
     std::uint32_t passed_count = 0;
@@ -121,8 +121,10 @@ class RivalSearch {
       }
       const PartOfTriangle part = part_of(watched);
       const Look look = look_at(part, clearance.margin_m, result);
-      if (look.holds_rival ? !watched.holds_rival : watched.holds_rival || look.margin_m < context_.moved_m)
-        passed[passed_count++] = watched.triangle;
+      const double then_m = watched.margin_m + gone.now_m;
+      const bool held_none = !watched.holds_rival && !look.holds_rival &&
+                             stayed_within(then_m, gone.before_m, gone.now_m, look.margin_m, context_.moved_m);
+      if (!held_none && !(watched.holds_rival && look.holds_rival)) passed[passed_count++] = watched.triangle;
       if (!look.watch) clearance.margin_m = std::min(clearance.margin_m, look.margin_m);
       if (look.watch && look.margin_m < clearance.margin_m) clearance.watched[kept++] = watched_triangle(part, look);
     }
@@ -527,8 +529,8 @@ double look_ahead_m(const ContactContext& context, double rank, double ahead) {
 }
 
 RivalResult find_rival(ContactContext& context, const SearchStructures& search, const IterationResult& tracked,
-                       const RivalQuestion& question, const Clearance& known, double gone) {
-  const bool everything = is_beyond(known, context.pose, gone, question.bound_m);
+                       const RivalQuestion& question, const Clearance& known, const Gone& gone) {
+  const bool everything = is_beyond(known, context.pose, gone.now_m, question.bound_m);
   // A finger that has not turned since the last search of everything, as most devices measure none, is taken not to.
   const bool any_turn = known.orientation != context.pose.orientation || (!everything && known.any_turn != 0);
   // Proofs about the watched triangles have to hold as far as that of all others.
@@ -541,8 +543,8 @@ RivalResult find_rival(ContactContext& context, const SearchStructures& search, 
     rivals.everywhere(result);
   } else {
     result.clearance = known;
-    recentre(result.clearance, context.pose, gone);
-    rivals.once_more(result);
+    recentre(result.clearance, context.pose, gone.now_m);
+    rivals.once_more(gone, result);
   }
   return result;
 }

@@ -34,9 +34,14 @@ struct RivalQuestion {
   const TouchedContacts* touched = nullptr;
 };
 
-/// `known`: the last search; the finger is `gone` from there, m. Beyond its margin all is searched, within it only the
-/// watched triangles whose time has come. Uses the `robust` rule whatever the method.
+/// How far the finger is from where the last search was (prove/clearance_check.h: gone_m), now and at the last tick, m.
+struct Gone {
+  double now_m = 0.0, before_m = 0.0;
+};
+
+/// `known`: the last search. Beyond its margin all is searched, within it only the watched triangles whose time has
+/// come. Uses the `robust` rule whatever the method.
 RivalResult find_rival(ContactContext& context, const SearchStructures& search, const IterationResult& tracked,
-                       const RivalQuestion& question, const Clearance& known, double gone);
+                       const RivalQuestion& question, const Clearance& known, const Gone& gone);
 
 }  // namespace tangent

@@ -55,6 +55,32 @@ TEST_CASE("facing from the front shows the finger's nearest point, from the back
   }
 }
 
+// Where the searches for turns and normals begin: between the axis' ends most of what is missing is the lean.
+TEST_CASE("towards the nearest place of a capsule's axis is all but the direction that faces the capsule") {
+  Random random(5);
+  const Finger finger = finger_of(FingerShape::capsule);
+  double worst = 0.0, worst_unleaned = 0.0;
+  int beside = 0;
+  for (int i = 0; i < rounds(2000); ++i) {
+    const FingerPose pose{random.in_cube(0.05), random.orientation()};
+    const Vec3 half = finger.half_length_m * section_of(pose.orientation).distal;
+    const Vec3 d = (finger.reach_m() + random.in(1e-3, 0.02)) * random.direction();
+    const double along = -glm::dot(d, half) / glm::dot(half, half);
+    if (std::abs(along) > 0.9) continue;
+    ++beside;
+    const Vec3 faces = facing_normal(finger, pose, pose.position - d, random.direction());
+    worst = std::max(worst, glm::distance(unit(towards_axis(d, half, along)), faces));
+    worst_unleaned = std::max(worst_unleaned, glm::distance(unit(d + along * half), faces));
+  }
+  CHECK(beside > rounds(2000) / 4);
+  CHECK(worst < 6e-3);
+  CHECK(worst_unleaned > 3.0 * worst);
+  const Vec3 d(0.0, 0.0, 0.01);
+  CHECK(towards_axis(d, Vec3(0.0), 0.5) == d);
+  CHECK(towards_axis(d, Vec3(0.01, 0.0, 0.0), std::numeric_limits<double>::quiet_NaN()) == d);
+  CHECK(towards_axis(d, Vec3(0.01, 0.0, 0.0), 7.0) == towards_axis(d, Vec3(0.01, 0.0, 0.0), 1.0));
+}
+
 TEST_CASE("a point at the finger's centre is faced by the given direction") {
   const Finger finger = finger_of(FingerShape::sphere);
   CHECK(facing_normal(finger, FingerPose{}, Vec3(0.0), Vec3(0, 1, 0)) == Vec3(0, 1, 0));

@@ -114,7 +114,7 @@ TEST_CASE("a part of the surface that is touched is never said to be out of touc
   Random random(64);
   for (const FingerShape shape : {FingerShape::ellipsoid, FingerShape::capsule}) {
     CAPTURE(static_cast<int>(shape));
-    int missed = 0, left_out = 0, margins = 0, told_more = 0, at_a_glance = 0;
+    int missed = 0, left_out = 0, margins = 0, told_more = 0, at_a_glance = 0, beside = 0;
     for (int i = 0; i < rounds(20000); ++i) {
       const Finger finger = any_finger(shape, random);
       FingerPose pose{Vec3(0.0), random.orientation()};
@@ -122,10 +122,11 @@ TEST_CASE("a part of the surface that is touched is never said to be out of touc
       // A part that holds the point 0 with normal n, which the finger touches so deep.
       const double depth = random.in(-0.01, 0.01), half_angle = std::pow(10.0, random.in(-3.0, -0.1));
       pose.position = -depth * n - support_point(finger, pose, n);
-      SurfaceBounds part;
-      part.half = std::pow(10.0, random.in(-5.0, -2.0)) * Vec3(1.0);
-      part.middle = random.in(0.0, 1.0) * part.half * random.direction();
-      part.normals = {unit(n + random.in(0.0, 0.95) * std::tan(half_angle) * across(n, random)), std::cos(half_angle)};
+      const Vec3 half = std::pow(10.0, random.in(-5.0, -2.0)) * Vec3(1.0);
+      const Vec3 middle = random.in(0.0, 1.0) * half * random.direction();
+      const NormalCone normals{unit(n + random.in(0.0, 0.95) * std::tan(half_angle) * across(n, random)),
+                               std::cos(half_angle)};
+      const SurfaceBounds part(middle, half, normals);
       const FingerCore core(finger, pose);
       const double lambda = core.ball_m() - depth;
       missed += !can_touch(core, part, lambda + 1e-12, 0.0) + (touch_margin(core, part) > 0.0);
@@ -138,6 +139,8 @@ TEST_CASE("a part of the surface that is touched is never said to be out of touc
       const double margin = touch_margin(there, part);
       missed += margin > way * (1.0 + 1e-9) + 1e-12;
       missed += !can_touch(there, part, lambda + way + 1e-12, way) + !can_touch_at_a_glance(there, part, way);
+      missed += is_beside(there, part, way);
+      beside += is_beside(there, part, 0.0);
       told_more += can_touch(there, part, 1.0, 0.0) && !can_touch_at_a_glance(there, part, 0.0);
       at_a_glance += !can_touch_at_a_glance(there, part, 0.0);
       margins += margin > 0.1 * way;
@@ -145,6 +148,7 @@ TEST_CASE("a part of the surface that is touched is never said to be out of touc
     CHECK(missed == 0);
     CHECK(told_more == 0);
     CHECK(at_a_glance > rounds(20000) / 100);
+    CHECK(beside > rounds(20000) / 1000);
     CHECK(left_out > rounds(20000) / 10);
     CHECK(margins > rounds(20000) / 200);
   }

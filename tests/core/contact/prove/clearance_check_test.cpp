@@ -1,6 +1,8 @@
 // The finger's distance from the pose of the last search, and the remaining margins there.
 #include "core/contact/prove/clearance_check.h"
 
+#include "tests/core/scenes.h"
+
 #include <doctest/doctest.h>
 
 #include <limits>
@@ -118,4 +120,28 @@ TEST_CASE("unlimited clearance stays so") {
   Clearance c = Clearance::unlimited();
   const FingerPose far{Vec3(1.0, 2.0, 3.0), Quat(1.0, 0.0, 0.0, 0.0)};
   CHECK(!deeper_possible(c, far, gone_m(c, Finger{}, far), 1e9));
+}
+
+TEST_CASE("a finger that stayed within two margins left neither between them, and most that did are told") {
+  test::Random random{41};
+  int left = 0, told = 0, stayed = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double then_m = 1e-3, moved_m = random.in(0.01, 1.5) * then_m, here_m = random.in(0.0, 1.1) * moved_m;
+    const Vec3 before = random.in(0.0, 1.0) * then_m * random.direction();
+    const Vec3 now = before + moved_m * random.direction();
+    bool within = true;
+    for (double share = 0.0; share <= 1.0; share += 0.01) {
+      const Vec3 p = before + share * (now - before);
+      within = within && (glm::length(p) <= then_m || glm::distance(p, now) <= here_m);
+    }
+    const bool says = stayed_within(then_m, glm::length(before), glm::length(now), here_m, moved_m);
+    left += says && !within;
+    told += says;
+    stayed += within;
+  }
+  CHECK(left == 0);
+  CHECK(told > stayed / 2);
+  CHECK(stayed > 2000);
+  CHECK(stayed < 18000);
+  CHECK(!stayed_within(1e-3, std::numeric_limits<double>::infinity(), 1.1e-3, 0.0, 1e-4));
 }
