@@ -9,8 +9,8 @@ namespace tangent {
 /// reach less the penetration, which for a sphere is h; a contact seen from inside ranks by how deep the finger's
 /// centre is, after every outside contact that is nearer than that plus the reach.
 inline double contact_rank(const Finger& finger, const PlaneContact& contact) {
-  if (contact.height_m < 0.0) return contact.penetration_m;
-  return (is_round(finger) ? round_radius_m(finger) : finger.reach_m()) - contact.penetration_m;
+  const double reach = is_round(finger) ? round_radius_m(finger) : finger.reach_m();
+  return reach - (contact.height_m < 0.0 ? contact.height_m : contact.penetration_m);
 }
 
 /// Up to which rank contacts count, and how fast the gap to one behind it closes at most while the finger moves.

@@ -120,20 +120,21 @@ Directions directions(const FingerCore& core, const SurfaceBounds& part, const S
   return d;
 }
 
-/// The finger's least thickness along the normal at a place on it, where that leads past the centre for every normal N:
-/// a chord of at least the support function H. 0 where it doesn't.
-/// Of an ellipsoid the chord is 2 / (|A N| N.A^-2 N), least between the longest and the shortest axis a and c; with
-/// H = |A N|, H <= chord is Kantorovich's inequality: a/c + c/a <= sqrt 8. Of a capsule: the ball's diameter; the
-/// core's part of H is L sqrt(x^2 + s^2) at most, x the cosine to the axis, and the line leaves the capsule R / sqrt(1
-/// - x^2) behind p(N) or past half the axis.
-double thickness(const Finger& finger, double longest_m, double shortest_m) {
-  if (finger.shape == FingerShape::capsule)
-    return finger.radius_m >= 0.5 * finger.half_length_m * (1.0 + kSpindle * kSpindle) ? 2.0 * finger.radius_m : 0.0;
-  const double ratio = longest_m / shortest_m, ratio2 = ratio * ratio;
-  if (!(ratio + 1.0 / ratio <= std::sqrt(8.0))) return 0.0;
-  if (ratio2 <= 2.0) return 2.0 * shortest_m;
-  const double x = (2.0 * ratio2 - 1.0) / (3.0 * (ratio2 - 1.0));  // N's part along the shortest axis, squared
-  return 2.0 * shortest_m / (std::sqrt(x + (1.0 - x) * ratio2) * (x + (1.0 - x) / ratio2));
+/// By how much H exceeds the thickness T along the normal N at a place on the finger, at most.
+/// Of an ellipsoid H = |A N| and T = 2 / (H N.A^-2 N). By Kantorovich's inequality N.A^-2 N <= (s - H^2) / (a c)^2 with a
+/// and c the longest and the shortest axis and s = a^2 + c^2, so H > T only where y (s - y) > 2 (a c)^2, y = H^2: up to
+/// the larger root of that, and nowhere where a/c + c/a <= sqrt 8.
+/// Of a capsule T is the ball's diameter at least. The core's part of H is L sqrt(x^2 + w^2) at most, x the cosine to
+/// the axis; the line leaves the capsule R / sqrt(1 - x^2) behind the core's point or past half the axis, so H > T only
+/// where R < L sqrt(x^2 + w^2) sqrt(1 - x^2) <= L (1 + w^2) / 2.
+double support_over_thickness(const Finger& finger, double longest_m, double shortest_m) {
+  if (finger.shape == FingerShape::capsule) {
+    const double length = finger.half_length_m, over = 0.5 * length * (1.0 + kSpindle * kSpindle) - finger.radius_m;
+    return over > 0.0 ? over * length * (1.0 + kSpindle) / finger.radius_m : 0.0;
+  }
+  const double a2 = longest_m * longest_m, c2 = shortest_m * shortest_m, s = a2 + c2, twice = 2.0 * a2 * c2;
+  const double over = 0.25 * s * s - twice;
+  return over > 0.0 ? over * std::sqrt(0.5 * s + std::sqrt(over)) / twice : 0.0;
 }
 
 }  // namespace
@@ -165,8 +166,7 @@ FingerCore::FingerCore(const Finger& finger, const FingerPose& pose, bool turns)
         flattest_core_m_ <= fast ? 0.0 : std::min(longest_m_ * longest_m_ / fast, std::cbrt(pair2_m4_ / fast));
     slow_turn_ = reach_m_ / longest_m_;
   }
-  outside_m_ = std::min(reach_m_, longest_m_ > 0.0 ? thickness(finger, longest_m_, shortest_m_) : 0.0);
-  if (!(outside_m_ > 0.0)) outside_m_ = -std::numeric_limits<double>::infinity();
+  if (longest_m_ > 0.0) over_m_ = support_over_thickness(finger, longest_m_, shortest_m_);
 }
 
 // |A tau|^2 + |A n|^2 + ... over an orthonormal frame is the sum of the squared axes.

@@ -32,6 +32,20 @@ struct NormalCone {
   double cos_half = -1.0;  ///< -1: every direction
 };
 
+/// A part of the surface by bounds: its points in a box, its normals in a cone.
+struct SurfaceBounds {
+  Vec3 middle, half;  ///< of the box, m
+  NormalCone normals;
+  double radius_m, sine;  ///< of the ball about the box; of the cone's half angle
+
+  SurfaceBounds(const Vec3& box_middle, const Vec3& box_half, const NormalCone& cone)
+      : middle(box_middle),
+        half(box_half),
+        normals(cone),
+        radius_m(std::sqrt(glm::dot(half, half))),
+        sine(std::sqrt(std::max(0.0, 1.0 - cone.cos_half * cone.cos_half))) {}
+};
+
 class FingerCore {
  public:
   /// `turns`: whether it may turn on its way; otherwise it goes straight.
@@ -99,10 +113,12 @@ class FingerCore {
   double inner_m() const { return ball_m_ + shortest_m_; }
   /// The least rank (contact_rank.h) of contacts at places so far outside the whole finger. Either the plane lies
   /// outside it, too, or the place is beyond it, seen from where it touches the plane: then the contact is as deep as
-  /// the finger is thick there, and more.
-  double rank_outside(double apart_m) const { return outside_m_ + apart_m; }
-  /// How far outside a place has to be for that rank.
-  double outside_at(double rank_m) const { return rank_m - outside_m_; }
+  /// the finger is thick there, and more, so that the centre is behind the plane.
+  double rank_outside(double apart_m) const {
+    return apart_m > over_m_ ? reach_m_ + (apart_m - over_m_) : -std::numeric_limits<double>::infinity();
+  }
+  /// How far outside a place has to be for that rank, and to have one at all after the finger has gone `way_m`.
+  double outside_at(double rank_m, double way_m) const { return over_m_ + std::max(way_m, rank_m - reach_m_); }
 
   /// How far p(N) can move along a direction across N while the finger goes `way_m`: its centre's way and the reach
   /// times its turning, as gone_m counts. `half_width_m`: of the core in that direction; `least_length_m`: |A N| at
@@ -124,7 +140,9 @@ class FingerCore {
   double ball_m_ = 0.0, lever_m_ = 0.0, reach_m_ = 0.0;
   double longest_m_ = 0.0, middle_m_ = 0.0, shortest_m_ = 0.0, sharpest_m_ = 0.0;
   double flattest_core_m_ = 0.0;
-  double outside_m_ = 0.0;   ///< rank_outside at the finger's surface
+  /// By how much the support function H, the depth of a plane through the centre, exceeds at most the finger's thickness
+  /// along the plane's normal where it touches it.
+  double over_m_ = 0.0;
   double squares_m2_ = 0.0;  ///< sum of the squared axes
   double pair2_m4_ = 0.0;    ///< square of the product of the two longest
   /// The slide rate at normals whose |A N| is above slow_length_m_; the finger goes slow_turn_ times what is above that
@@ -137,20 +155,6 @@ inline bool is_thin(const FingerCore& core) {
   constexpr double kThin = 0.05;  // half width to half length
   return core.width_m() < kThin * core.longest_m();
 }
-
-/// A part of the surface by bounds: its points in a box, its normals in a cone.
-struct SurfaceBounds {
-  Vec3 middle, half;  ///< of the box, m
-  NormalCone normals;
-  double radius_m, sine;  ///< of the ball about the box; of the cone's half angle
-
-  SurfaceBounds(const Vec3& box_middle, const Vec3& box_half, const NormalCone& cone)
-      : middle(box_middle),
-        half(box_half),
-        normals(cone),
-        radius_m(std::sqrt(glm::dot(half, half))),
-        sine(std::sqrt(std::max(0.0, 1.0 - cone.cos_half * cone.cos_half))) {}
-};
 
 /// Whether no finger within `way_m` touches such a part, at the first glance: all lines along its normals pass by.
 bool is_beside(const FingerCore& core, const SurfaceBounds& part, double way_m);

@@ -480,7 +480,7 @@ bool ContactHierarchy::touchable(const Node& node, const ContactQuery& q, double
   // No rank changes by more than the finger goes.
   const double led = is_led ? std::sqrt(glm::dot(q.ahead, q.ahead)) : 0.0, nearest = q.nearest_m - led;
   // Boxes that are no further off than that can't be so far outside.
-  const double far = std::max(way, core.outside_at(nearest - core.lever_m()));
+  const double far = core.outside_at(nearest - core.lever_m(), way);
   const double off = far + core.inner_m() - led;
   if ((off < 0.0 || box2 > off * off) && core.apart_m(part.middle, part.half) > far) return false;
   // Single directions tell of parts that are small, or flat, not of others, and wide ones no glance leaves out.
@@ -491,7 +491,7 @@ bool ContactHierarchy::touchable(const Node& node, const ContactQuery& q, double
 
 void limit_query(ContactQuery& query, const Finger& finger, double rank) {
   query.nearest_m = rank + finger.unroundness_m();
-  query.inside_m = rank - finger.reach_m() + finger.unroundness_m();
+  query.inside_m = rank < finger.reach_m() ? -1.0 : rank - finger.reach_m() + finger.unroundness_m();
 }
 
 }  // namespace tangent

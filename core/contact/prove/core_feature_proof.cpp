@@ -65,7 +65,8 @@ double margin_by_distance(const FingerCore& core, const SurfaceBounds& part, con
 /// Once it is `enough_m`, no more is asked for.
 double margin_of(const FingerCore& core, const SurfaceBounds& part, const RankBound& bound, double enough_m) {
   const double apart = core.apart_m(part.middle, part.half);
-  double margin = std::min(apart, bound.way_to(core.rank_outside(apart)));
+  const double outside = core.rank_outside(apart);  // as far as it is over the reach the finger may go
+  double margin = std::min(outside - core.reach_m(), bound.way_to(outside));
   const auto is_enough = [&] { return margin > 0.0 && margin >= enough_m; };
   if (!is_enough()) margin = std::max(margin, touch_margin(core, part, enough_m));
   if (!is_enough()) margin = std::max(margin, margin_by_distance(core, part, bound));

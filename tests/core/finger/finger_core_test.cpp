@@ -182,7 +182,8 @@ TEST_CASE(
       ++ranked;
       beyond += depth > 0.0;
       const PlaneContact contact = contact_on_plane(finger, pose, place, n);
-      wrong += contact_rank(finger, contact) < core.rank_outside(apart) - 1e-12;
+      const double rank = contact_rank(finger, contact);
+      wrong += rank < core.rank_outside(apart) - 1e-12 || core.outside_at(rank, 0.0) < apart - 1e-12;
     }
     CHECK(wrong == 0);
     CHECK(said > 0.8 * below);
