@@ -121,12 +121,12 @@ Directions directions(const FingerCore& core, const SurfaceBounds& part, const S
 }
 
 /// By how much H exceeds the thickness T along the normal N at a place on the finger, at most.
-/// Of an ellipsoid H = |A N| and T = 2 / (H N.A^-2 N). By Kantorovich's inequality N.A^-2 N <= (s - H^2) / (a c)^2 with a
-/// and c the longest and the shortest axis and s = a^2 + c^2, so H > T only where y (s - y) > 2 (a c)^2, y = H^2: up to
-/// the larger root of that, and nowhere where a/c + c/a <= sqrt 8.
-/// Of a capsule T is the ball's diameter at least. The core's part of H is L sqrt(x^2 + w^2) at most, x the cosine to
-/// the axis; the line leaves the capsule R / sqrt(1 - x^2) behind the core's point or past half the axis, so H > T only
-/// where R < L sqrt(x^2 + w^2) sqrt(1 - x^2) <= L (1 + w^2) / 2.
+/// Of an ellipsoid H = |A N| and T = 2 / (H N.A^-2 N). By Kantorovich's inequality N.A^-2 N <= (s - H^2) / (a c)^2 with
+/// a and c the longest and the shortest axis and s = a^2 + c^2, so H > T only where y (s - y) > 2 (a c)^2, y = H^2: up
+/// to the larger root of that, and nowhere where a/c + c/a <= sqrt 8. Of a capsule T is the ball's diameter at least.
+/// The core's part of H is L sqrt(x^2 + w^2) at most, x the cosine to the axis; the line leaves the capsule R / sqrt(1
+/// - x^2) behind the core's point or past half the axis, so H > T only where R < L sqrt(x^2 + w^2) sqrt(1 - x^2) <= L
+/// (1 + w^2) / 2.
 double support_over_thickness(const Finger& finger, double longest_m, double shortest_m) {
   if (finger.shape == FingerShape::capsule) {
     const double length = finger.half_length_m, over = 0.5 * length * (1.0 + kSpindle * kSpindle) - finger.radius_m;

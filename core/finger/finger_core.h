@@ -140,8 +140,8 @@ class FingerCore {
   double ball_m_ = 0.0, lever_m_ = 0.0, reach_m_ = 0.0;
   double longest_m_ = 0.0, middle_m_ = 0.0, shortest_m_ = 0.0, sharpest_m_ = 0.0;
   double flattest_core_m_ = 0.0;
-  /// By how much the support function H, the depth of a plane through the centre, exceeds at most the finger's thickness
-  /// along the plane's normal where it touches it.
+  /// By how much the support function H, the depth of a plane through the centre, exceeds at most the finger's
+  /// thickness along the plane's normal where it touches it.
   double over_m_ = 0.0;
   double squares_m2_ = 0.0;  ///< sum of the squared axes
   double pair2_m4_ = 0.0;    ///< square of the product of the two longest

@@ -55,7 +55,7 @@ class Tracker {
   void follow_from(const PlanarPlace& start, bool kept, int budget) { take(follow(x_, start, kept, budget)); }
   /// Whether the contact, found again or followed round a rim to the other side, has been entered.
   void look_from_outside(double before_m) {
-    const bool behind = is_unentered(finger_step(), depth_m(out_.contact), before_m);
+    const bool behind = is_unentered(finger_step(), depth_m(out_.contact), before_m, !(before_m > 0.0));
     if (behind && !out_.unentered && out_.event == TickEvent::none) out_.event = TickEvent::branch;
     out_.unentered = behind || (out_.unentered && !found_again_ && !was_put_elsewhere(finger_step()));
   }

@@ -125,7 +125,8 @@ PlanarTrack find_exact(const PlanarCurve& curve, const TickContext& tick, const 
                         tick.preset.solver.switch_hysteresis_m};
   track.event = kept.place.feature == Feature::none ? TickEvent::first : TickEvent::none;
   if (track.event == TickEvent::none && depth > 0.0)
-    track.unentered = is_unentered(step, depth, kept.depth_m) || (kept.unentered && !was_put_elsewhere(step));
+    track.unentered =
+        is_unentered(step, depth, kept.depth_m, !(kept.depth_m > 0.0)) || (kept.unentered && !was_put_elsewhere(step));
   record_exact(track.contact.place, depth, tick);
   return track;
 }

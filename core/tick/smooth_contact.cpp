@@ -36,6 +36,15 @@ double depth_before(const ContactContext& context, const TickState& state) {
   return contact_on_plane(context.finger, context.pose, last.point, last.normal).penetration_m;
 }
 
+bool found_before(const TickState& state) { return state.has_converged && state.last_converged_s >= state.last_t_s; }
+
+/// Whether a place is unentered at which the contact leapt or started anew.
+bool is_unentered(const ContactContext& context, const TickState& state, const IterationResult& found) {
+  const double before = depth_before(context, state);
+  const bool was_free = found_before(state) && !(before > 0.0);
+  return is_unentered(step_of(context), found.contact.penetration_m, before, was_free);
+}
+
 /// Where every touched place pushes: the rank below which another place is one of them. The finger touches what ranks
 /// below its reach; where there is no room for more, only deeper places than those count.
 double touching_bound_m(const ContactContext& context, const TouchedContacts& touched) {
@@ -61,8 +70,10 @@ bool look_for_touched(ContactContext& context, const SearchStructures& search, d
   const double depth =
       std::max(depth_before(context, state), state.unentered ? 0.0 : decided.contact.contact.penetration_m);
   const std::size_t followed = touched.count;
+  const TouchedContact tracked{decided.contact.plane, decided.contact.contact};
+  const bool has_far_side = !state.unentered && !was_put_elsewhere(step_of(context));
   for (const TouchedContact& c : rival.touched.all())
-    if (was_entered(step_of(context), c.contact.penetration_m, depth))
+    if (was_entered(step_of(context), c.contact.penetration_m, depth) && !(has_far_side && is_far_side(c, tracked)))
       touched.add(c, kMergedPlaces * context.settings.tolerance_m);
   if (touched.count > followed || touched.full()) decided.places_changed = true;
   rival.deeper = rival.deeper && !pushes_with_others(rival.best.contact) &&
@@ -100,6 +111,41 @@ bool go_on_with_touched(ContactContext& context, TickState& state, DecidedContac
   return found;
 }
 
+/// Where following failed.
+void start_anew(ContactContext& context, const SearchStructures& search, bool first, const TickState& state,
+                DecidedContact& decided) {
+  const bool in_vain = !first && !found_before(state);  // not where there was no search at all, as in an unready tick
+  decide_start(seed_contact(context, search, state.plane, in_vain), state.plane, decided);
+}
+
+/// A finger that has been put elsewhere starts at the deepest place there, unless that is the one that was followed.
+/// True where it did.
+bool start_after_leap(ContactContext& context, const SearchStructures& search, const TickState& state,
+                      DecidedContact& decided) {
+  if (!was_put_elsewhere(step_of(context)) || context.settings.method != Method::robust) return false;
+  const SeedResult seeded = seed_contact(context, search, state.plane, false);
+  const double rank = contact_rank(context.finger, decided.contact.contact);
+  decided.evaluations += seeded.evaluations;
+  if (!seeded.best.converged() ||
+      !(contact_rank(context.finger, seeded.best.contact) < takeover_bound_m(context.settings, rank)))
+    return false;
+  decide_start(seeded, state.plane, decided);
+  decided.evaluations -= seeded.evaluations;  // counted once
+  return true;
+}
+
+/// Whether a place at which a lost contact was started anew can't have been entered.
+bool is_new_unentered(const ContactContext& context, const TickState& state, const IterationResult& found) {
+  const FingerStep step = step_of(context);
+  const double before = depth_before(context, state);
+  if (is_unentered(context, state, found)) return true;
+  if (!(before > 0.0) || was_put_elsewhere(step)) return false;
+  TouchedContact last;
+  last.plane.normal = state.last_converged.normal;
+  last.contact = contact_on_plane(context.finger, context.pose, state.last_converged.point, last.plane.normal);
+  return is_far_side({found.plane, found.contact}, last);
+}
+
 }  // namespace
 
 void find_smooth_contact(ContactContext& context, const SearchStructures& search, bool sample_is_kept, TickState& state,
@@ -110,20 +156,23 @@ void find_smooth_contact(ContactContext& context, const SearchStructures& search
     state.touched.count = 0;
     state.clearance = Clearance{};
   }
-  const Followed followed = first ? Followed::lost : follow(context, state.plane, sample_is_kept, decided.contact);
+  Followed followed = first ? Followed::lost : follow(context, state.plane, sample_is_kept, decided.contact);
   decide_followed(followed, first, decided);
+  if (followed != Followed::lost && start_after_leap(context, search, state, decided)) followed = Followed::lost;
   if (followed != Followed::lost) {
-    if (!(decided.contact.contact.penetration_m > 0.0)) state.unentered = 0;  // left: from now on it counts
+    const double depth = decided.contact.contact.penetration_m;
+    if (!(depth > 0.0)) {
+      state.unentered = 0;  // left: from now on it counts
+    } else if ((followed == Followed::branched || !found_before(state)) && !state.unentered) {
+      state.unentered = is_unentered(context, state, decided.contact);
+    }
     if (!touched) return watch_others(context, search, state, decided);
   } else if (state.clearance = Clearance{}; touched && go_on_with_touched(context, state, decided, *touched)) {
     state.unentered = 0;
   } else {
-    const bool found_before = state.has_converged && state.last_converged_s >= state.last_t_s;
-    const bool in_vain = !first && !found_before;  // not where there was no search at all, as in an unready tick
-    decide_start(seed_contact(context, search, state.plane, in_vain), state.plane, decided);
+    if (decided.event != TickEvent::reseed) start_anew(context, search, first, state, decided);
     if (!decided.facing())  // there, nothing could be entered
-      state.unentered =
-          !first && is_unentered(step_of(context), decided.contact.contact.penetration_m, depth_before(context, state));
+      state.unentered = !first && is_new_unentered(context, state, decided.contact);
   }
   if (!touched) return;
   touched->count = 0;

@@ -28,15 +28,28 @@ bool was_entered(const FingerStep& step, double depth_m, double tracked_depth_m)
   return depth_m <= std::max(0.0, tracked_depth_m) + explained;
 }
 
-bool is_unentered(const FingerStep& step, double depth_m, double before_m) {
+bool is_unentered(const FingerStep& step, double depth_m, double before_m, bool was_free) {
+  if (was_free) return !was_entered(step, depth_m, 0.0);
   return !was_put_elsewhere(step) && depth_m > std::max(0.0, before_m) + kLeapOfFinger * step.switch_hysteresis_m;
+}
+
+bool is_far_side(const TouchedContact& place, const TouchedContact& tracked) {
+  constexpr double kFacesAway = -0.5;  // cosine: a wedge of up to 60 degrees has a far side
+  const bool behind =
+      place.contact.height_m < 0.0 || (tracked.contact.height_m < 0.0 && place.contact.penetration_m > 0.0);
+  return behind && tracked.contact.penetration_m > 0.0 &&
+         glm::dot(place.plane.normal, tracked.plane.normal) < kFacesAway;
 }
 
 bool decide_rival(const ContactContext& context, const RivalResult& rival, double tracked_depth_m,
                   const TrackedPlane& kept, DecidedContact& decided) {
   decided.evaluations += rival.evaluations;
   if (!rival.deeper) return false;
-  if (!was_entered(step_of(context), rival.best.contact.penetration_m, tracked_depth_m)) return false;
+  const FingerStep step = step_of(context);
+  if (!was_entered(step, rival.best.contact.penetration_m, tracked_depth_m)) return false;
+  const TouchedContact tracked{decided.contact.plane, decided.contact.contact};
+  if (tracked_depth_m > 0.0 && !was_put_elsewhere(step) && is_far_side({rival.best.plane, rival.best.contact}, tracked))
+    return false;
   adopt(rival.best, kept, decided);
   decided.event = TickEvent::switched;
   return true;

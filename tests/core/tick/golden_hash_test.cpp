@@ -14,11 +14,11 @@ namespace {
 
 // One value a method, for the path below. They change when the solver computes differently: read the new ones off
 // the failing test, in debug and in release, and say in the commit what changed them.
-constexpr std::uint64_t kGoldenPaper = 0xa4f5fdcbf4a9ed4bull;
+constexpr std::uint64_t kGoldenPaper = 0x3cc4b7b0487c8346ull;
 constexpr std::uint64_t kGoldenNewton = 0x20490c494c4ecc21ull;
-constexpr std::uint64_t kGoldenRobust = 0xe73e37dd035c2241ull;
+constexpr std::uint64_t kGoldenRobust = 0xa44fac84bf6b62baull;
 constexpr std::uint64_t kGoldenEveryPlace =
-    0xea553a4e73076ac4ull;  // robust with force.contacts = all; the others with deepest
+    0x44d1932d98bf176cull;  // robust with force.contacts = all; the others with deepest
 
 constexpr int kScenes = 3;
 
