@@ -1,6 +1,7 @@
 // What stays the same through one tick's search for the contact.
 #pragma once
 
+#include "core/base/tolerances.h"
 #include "core/contact/patch_cache.h"
 #include "core/contact/trace.h"
 #include "core/finger/finger_core.h"
@@ -15,10 +16,11 @@ struct ContactContext {
   const FingerPose& pose;  ///< local mesh coordinates
   Vec3 origin;             ///< of the local coordinates, for the trace
   IterationTrace* trace = nullptr;
-  std::uint8_t seed = 0;             ///< 0 while following the kept plane; the number of the seed otherwise
-  double moved_m = 0.0;              ///< the way of the finger's furthest point since the last tick
-  Vec3 moved{0.0};                   ///< the way of its centre
-  const FingerCore* core = nullptr;  ///< for proofs, of a finger that is not round; set by searches
+  std::uint8_t seed = 0;                ///< 0 while following the kept plane; the number of the seed otherwise
+  double moved_m = 0.0;                 ///< the way of the finger's furthest point since the last tick
+  Vec3 moved{0.0};                      ///< the way of its centre
+  int most_crossings = kMostCrossings;  ///< triangles that a step may cross; of the kept contact, kMostTrackedCrossings
+  const FingerCore* core = nullptr;     ///< for proofs, of a finger that is not round; set by searches
 
   /// A length given in switch hystereses (base/tolerances.h), m.
   double hystereses_m(double count) const { return count * settings.switch_hysteresis_m; }

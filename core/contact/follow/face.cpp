@@ -26,7 +26,7 @@ bool move_on_face(const ContactContext& context, const ParameterStep& step, Iter
   }
   const bool tracking = context.seed == 0 && context.settings.method == Method::robust;
   const WalkResult walk = walk_face(context.cache.mesh(), now.plane.triangle, now.plane.u, now.plane.v, step.da,
-                                    step.db, tracking ? kMostTrackedCrossings : kMostCrossings);
+                                    step.db, tracking ? kMostTrackedCrossings : context.most_crossings);
   if (walk.lost) return false;  // the plane stays with its sample
   now.plane.move_to(walk.place);
   now.triangle_changes += walk.triangle_changes;

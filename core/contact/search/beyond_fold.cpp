@@ -38,7 +38,7 @@ bool iterate_beyond_fold(ContactContext& context, const IterationResult& unstabl
   Vec2 step = sign * kFirstStep * weakest_direction(s, here, face_stability(s, here));
   for (int i = 0; i < kSteps; ++i, step *= 2.0) {
     const WalkResult walk = walk_face(context.cache.mesh(), unstable.plane.triangle, unstable.plane.u, unstable.plane.v,
-                                      step.x, step.y, kMostTrackedCrossings);
+                                      step.x, step.y, std::min(kMostTrackedCrossings, context.most_crossings));
     if (walk.lost) return false;
     const bool left = walk.place.feature != Feature::face;
     if (!left) {

@@ -68,6 +68,7 @@ class RivalSearch {
                  context.trace, 0,         context.moved_m, context.moved} {
     if (!is_round(context.finger)) {
       context_.core = &core_.emplace(context.finger, context.pose, any_turn_);
+      context_.most_crossings = kMostRivalCrossings;
       steady_ = steady_ && can_ask_steady(*core_, tracked_rank_m_);
     }
     remember(tracked.plane, tracked.contact);
