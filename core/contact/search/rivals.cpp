@@ -296,7 +296,7 @@ class RivalSearch {
     const PatchExclusion proof = exclude_part(context_, part, up_to, enough_m, &features_);
     if (!proof.possible && proof.margin_m > 0.0) return {proof.margin_m, false, true};
     if (!proof.possible) return {kUnresolvedMargin * slope_m_, true, true};
-    if (proof.height_m != 0.0 && is_tracked(proof)) return own_slope(enough_m);
+    if (proof.height_m != 0.0 && is_tracked(t, proof)) return own_slope(enough_m);
     const double guess = proof.height_m >= 0.0 ? proof.height_m : context_.finger.reach_m() - proof.height_m;
     const double behind = guess - bound_m_;
     if (proof.height_m != 0.0 && behind > kHeightGuess * guess) {  // a rival, but not a deeper one yet
@@ -410,11 +410,17 @@ class RivalSearch {
     return look_at(part, enough_m, {bound_m_, closing_}, result);
   }
 
-  /// Seen from the next triangle, the tracked contact on or near their common side.
-  bool is_tracked(const PatchExclusion& proof) const {
+  /// Seen from the next triangle, the tracked contact on or near their common side. What faces elsewhere is another
+  /// one: the other wall of a corner, as deep, may be as near where triangles are large.
+  bool is_tracked(std::uint32_t t, const PatchExclusion& proof) {
     const Vec3 apart = proof.point - tracked_.plane.point;
     const double near = kSamePlace * known_[0].size_m, height = core_ ? tracked_rank_m_ : tracked_.contact.height_m;
-    return glm::dot(apart, apart) < near * near && std::abs(proof.height_m - height) < kHeightGuess * std::abs(height);
+    if (!(glm::dot(apart, apart) < near * near) ||
+        !(std::abs(proof.height_m - height) < kHeightGuess * std::abs(height)))
+      return false;
+    SurfaceSample there;
+    context_.cache.sample(t, settings_.normal_form, proof.u, std::min(proof.v, 1.0 - proof.u), there);
+    return glm::dot(there.normal, tracked_.plane.normal) > kJumpCosine;
   }
 
   /// Whether the place that may hold a contact is known, and so near to that point that it may be the same.

@@ -2,6 +2,7 @@
 
 #include "core/base/tolerances.h"
 #include "core/contact/contact_rank.h"
+#include "core/contact/follow/hollow.h"
 #include "core/contact/prove/triangle_proof.h"
 #include "core/contact/search/beyond_fold.h"
 #include "core/finger/facing_normal.h"
@@ -150,6 +151,17 @@ void seed_by_distance(ContactContext& context, const SearchStructures& search, s
   }
 }
 
+/// Where the raw mesh's nearest point is on a hollow crease or corner, the contact that a centre behind both its sides
+/// has there.
+void seed_in_hollow(ContactContext& context, const SearchStructures& search, double radius, Selection& selection) {
+  if (!is_round(context.finger)) return;
+  const NearestHit hit = search.nearest.nearest(context.pose.position, radius);
+  if (!hit) return;
+  IterationResult r;
+  if (find_in_hollow(context, feature_at(context.cache.mesh(), hit.triangle, hit.u, hit.v), r))
+    selection.offer(context, r);
+}
+
 /// Where only unstable contacts were found: the stable ones beside the nearest of them.
 void leave_unstable(ContactContext& context, Selection& selection) {
   const IterationResult unstable = selection.result.best;
@@ -217,6 +229,7 @@ SeedResult seed_contact(ContactContext& context, const SearchStructures& search,
     seed_by_hierarchy(context, search, most, failed, selection);
     if (!(selection.group == 0 && selection.value < most) && most < kUnlimited)
       seed_by_hierarchy(context, search, kUnlimited, failed, selection);
+    seed_in_hollow(context, search, known_radius(context, kept), selection);
     if (selection.group != 0 || implausible(context, search, selection.result.best, selection.value))
       seed_by_distance(context, search, kSeeds, std::numeric_limits<double>::infinity(), seed_budget(context.finger),
                        &failed, in_motion, selection);

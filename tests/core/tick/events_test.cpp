@@ -254,7 +254,18 @@ ScenePtr valley() {
   return scene;
 }
 
-/// A point that goes from 0.5 mm under the right wall to where both walls are, past their crease, and stays there.
+/// A ball as an ellipsoid: a round finger that has come past the crease rests on it (contact/follow/hollow.h), others
+/// do not.
+constexpr double kSmallBall = 1e-4;
+Preset small_ball() {
+  Preset preset = sphere_preset(0.0, Method::robust);
+  preset.finger.shape = FingerShape::ellipsoid;
+  preset.finger.semi_axes_m = Vec3(kSmallBall);
+  return preset;
+}
+
+/// A finger whose centre goes from 0.5 mm under the right wall to where both walls are, past their crease, and stays
+/// there.
 TickInput past_the_crease(int i) {
   return at_position(1e-3 * i,
                      {0.002 - 1e-4 * std::min(i, 20), 0.0, 0.002 - std::sqrt(0.5) * 1e-3 - 1e-4 * std::min(i, 20)});
@@ -263,25 +274,20 @@ TickInput past_the_crease(int i) {
 }  // namespace
 
 TEST_CASE("where the surface offers no contact the row says facing, and how far the best place is from being one") {
-  const Preset preset = sphere_preset(0.0, Method::robust);
+  const Preset preset = small_ball();
   const Vec3 under(0.0, 0.0, -0.001);  // both walls' feet lie past the crease
   const TickOutput out = solve_once(valley(), preset, under);
   CHECK(out.status == TickStatus::facing);
   CHECK(!is_converged(out.status));
   CHECK(glm::length(out.contact) < 1e-9);  // the nearest place: the crease
-  CHECK(std::abs(out.penetration_m - 0.001) < 1e-9);
+  CHECK(std::abs(out.penetration_m - 0.001 - kSmallBall) < 1e-9);
   CHECK(glm::dot(out.normal, Vec3(0, 0, 1)) > 1.0 - 1e-9);       // the plane faces the finger from behind
   CHECK(std::abs(out.error_m - 0.001 * std::sqrt(0.5)) < 1e-9);  // seen along the wall's own normal, by 45 degrees
   CHECK(out.force_n == Vec3(0.0));                               // nothing was touched before
-  auto trace = std::make_unique<IterationTrace>();
-  solve_once(valley(), preset, {under, Quat(1.0, 0.0, 0.0, 0.0)}, trace.get());
-  REQUIRE(trace->size > 0);
-  CHECK(trace->records[trace->size - 1].stop == StopReason::facing);
-  CHECK(trace->records[trace->size - 1].error_m == out.error_m);
 }
 
 TEST_CASE("a facing tick renders the last contact's plane, and fades as an unconverged one does") {
-  const Preset preset = sphere_preset(0.0, Method::robust);
+  const Preset preset = small_ball();
   Stepper stepper(valley());
   TickState state;
   int facing = 0, last_contact = 0;
@@ -297,7 +303,7 @@ TEST_CASE("a facing tick renders the last contact's plane, and fades as an uncon
     CHECK(out.status == TickStatus::facing);
     ++facing;
     const Vec3 last = valley()->mesh().origin() + state.last_converged.point;
-    const double depth = glm::dot(last - past_the_crease(i).finger.position, state.last_converged.normal);
+    const double depth = kSmallBall + glm::dot(last - past_the_crease(i).finger.position, state.last_converged.normal);
     const double share = unconverged_share(preset.safety, 1e-3 * (i - last_contact));
     CHECK(glm::distance(out.decided_force_n,
                         share * preset.force.stiffness_n_per_m * depth * state.last_converged.normal) < 1e-9);
