@@ -230,6 +230,13 @@ double FingerCore::way_within(double half_width_m, double least_length_m, double
   return std::max({along, slow, 0.5 * room_m - half_width_m});
 }
 
+bool is_behind(const FingerCore& core, const SurfaceBounds& part, double way_m) {
+  const Vec3 d = core.centre() - part.middle;
+  const double along = glm::dot(d, part.normals.axis), room = -along * part.normals.cos_half - part.radius_m - way_m;
+  return part.normals.cos_half > 0.0 && room > 0.0 &&
+         (glm::dot(d, d) - along * along) * part.sine * part.sine < room * room;
+}
+
 // As miss_of_centre is over the way, without its root.
 bool is_beside(const FingerCore& core, const SurfaceBounds& part, double way_m) {
   const double cosine = part.normals.cos_half;

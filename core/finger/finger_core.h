@@ -156,6 +156,8 @@ inline bool is_thin(const FingerCore& core) {
   return core.width_m() < kThin * core.longest_m();
 }
 
+/// Whether the centre is behind every plane of a part, and stays there while it goes `way_m`.
+bool is_behind(const FingerCore& core, const SurfaceBounds& part, double way_m);
 /// Whether no finger within `way_m` touches such a part, at the first glance: all lines along its normals pass by.
 bool is_beside(const FingerCore& core, const SurfaceBounds& part, double way_m);
 /// Which contacts a finger may have on such a part: p(N) - S = lambda N with lambda up to `most_m`, which is the ball's

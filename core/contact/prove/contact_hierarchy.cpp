@@ -476,7 +476,7 @@ bool ContactHierarchy::touchable(const Node& node, const ContactQuery& q, double
   const bool is_led = !here && q.core_ahead;
   const FingerCore& core = is_led ? *q.core_ahead : *q.core;
   const double way = here ? 0.0 : q.margin_m;
-  if (is_beside(core, part, way)) return false;
+  if (is_beside(core, part, way) || (q.inside_m < 0.0 && is_behind(core, part, way))) return false;
   // No rank changes by more than the finger goes.
   const double led = is_led ? std::sqrt(glm::dot(q.ahead, q.ahead)) : 0.0, nearest = q.nearest_m - led;
   // Boxes that are no further off than that can't be so far outside.

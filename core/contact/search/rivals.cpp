@@ -365,18 +365,25 @@ class RivalSearch {
     q.tilt_rad = context_.finger.tilt_rad();
     q.steady_ground = steady_;
     q.core = context_.core;
-    limit_query(q, context_.finger, bound_m_ + closing_ * margin);
+    limit(q, margin);
     return q;
+  }
+
+  /// What can take over within a margin. Beside a contact on the outside, a place seen from inside that a finger other
+  /// than a point comes to was not entered (decide.h).
+  void limit(ContactQuery& q, double margin) const {
+    limit_query(q, context_.finger, bound_m_ + closing_ * margin);
+    if (core_ && tracked_.contact.height_m >= 0.0) q.inside_m = -1.0;
   }
 
   void narrow(Clearance& clearance, double margin, ContactQuery& q) const {
     clearance.margin_m = q.margin_m = margin;
-    limit_query(q, context_.finger, bound_m_ + closing_ * margin);
+    limit(q, margin);
   }
 
   void narrow_ahead(Clearance& clearance, double margin, ContactQuery& q, const Vec3& ahead) {
     clearance.margin_m = margin;
-    limit_query(q, context_.finger, bound_m_ + closing_ * margin);
+    limit(q, margin);
     set_ahead(q, ahead, margin / margin_m_);
   }
 

@@ -114,7 +114,7 @@ TEST_CASE("a part of the surface that is touched is never said to be out of touc
   Random random(64);
   for (const FingerShape shape : {FingerShape::ellipsoid, FingerShape::capsule}) {
     CAPTURE(static_cast<int>(shape));
-    int missed = 0, left_out = 0, margins = 0, told_more = 0, at_a_glance = 0, beside = 0;
+    int missed = 0, left_out = 0, margins = 0, told_more = 0, at_a_glance = 0, beside = 0, behind = 0;
     for (int i = 0; i < rounds(20000); ++i) {
       const Finger finger = any_finger(shape, random);
       FingerPose pose{Vec3(0.0), random.orientation()};
@@ -141,6 +141,10 @@ TEST_CASE("a part of the surface that is touched is never said to be out of touc
       missed += !can_touch(there, part, lambda + way + 1e-12, way) + !can_touch_at_a_glance(there, part, way);
       missed += is_beside(there, part, way);
       beside += is_beside(there, part, 0.0);
+      const double in_front = glm::dot(other.position, n);  // of the plane through 0
+      missed += in_front >= 0.0 && is_behind(there, part, 0.0);
+      missed += glm::dot(pose.position, n) >= 0.0 && is_behind(there, part, way);
+      behind += is_behind(there, part, way);
       told_more += can_touch(there, part, 1.0, 0.0) && !can_touch_at_a_glance(there, part, 0.0);
       at_a_glance += !can_touch_at_a_glance(there, part, 0.0);
       margins += margin > 0.1 * way;
@@ -149,6 +153,7 @@ TEST_CASE("a part of the surface that is touched is never said to be out of touc
     CHECK(told_more == 0);
     CHECK(at_a_glance > rounds(20000) / 100);
     CHECK(beside > rounds(20000) / 1000);
+    CHECK(behind > rounds(20000) / 500);
     CHECK(left_out > rounds(20000) / 10);
     CHECK(margins > rounds(20000) / 200);
   }
