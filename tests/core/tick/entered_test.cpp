@@ -1,6 +1,5 @@
 // Nothing pushes that the finger did not enter from outside: sheets from behind, the far side of plates and fins. And a
 // finger that was put elsewhere is in what is there.
-#include "core/contact/contact_rank.h"
 #include "tests/core/random_bodies.h"
 
 using namespace tangent;

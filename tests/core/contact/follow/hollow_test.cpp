@@ -34,7 +34,7 @@ struct InnerCorner {
   std::vector<Vec3> way_under(double depth, double step) const {
     std::vector<Vec3> way;
     for (double s = 0.01; s > 0.0; s -= step) way.push_back(Vec3(s, 0.0, 0.0) - depth * first);
-    const double turn = kPi - opening;
+    const double turn = 180.0 * kDegree - opening;
     for (double a = 0.0; a < turn; a += step / depth) way.push_back(-depth * Vec3(std::sin(a), 0.0, std::cos(a)));
     for (double s = 0.0; s < 0.01; s += step) way.push_back(s * along_second - depth * second);
     for (Vec3& at : way) at.y = 0.004;
