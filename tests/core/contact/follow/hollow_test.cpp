@@ -92,7 +92,8 @@ TEST_CASE("in the corner of three walls a point is pushed to their corner, along
   double t = 0.0, worst = 0.0;
   int at_vertex = 0, on_edge = 0, on_face = 0, other = 0;
   Vec3 at(0.01, 0.01, -1e-3), target = at;
-  for (int i = 0; i < rounds(20000); ++i) {
+  constexpr int kTicks = 20000;
+  for (int i = 0; i < kTicks; ++i) {
     if (glm::distance(at, target) < 1e-4)  // at least one wall deep, up to three
       do target = {random.in(-0.002, 0.006), random.in(-0.002, 0.006), random.in(-0.002, 0.006)};
       while (std::min({target.x, target.y, target.z}) > -2e-4);
@@ -111,9 +112,9 @@ TEST_CASE("in the corner of three walls a point is pushed to their corner, along
     if (out.status == TickStatus::vertex || out.status == TickStatus::edge)
       worst = std::max(worst, glm::distance(out.decided_force_n, kStiffness * (nearest - at)) / kStiffness);
   }
-  CHECK(at_vertex > rounds(20000) / 100);
-  CHECK(on_edge > rounds(20000) / 100);
-  CHECK(on_face > rounds(20000) / 100);
+  CHECK(at_vertex > kTicks / 100);
+  CHECK(on_edge > kTicks / 100);
+  CHECK(on_face > kTicks / 100);
   CHECK(other == 0);
   CHECK(worst < 1e-12);
 }
