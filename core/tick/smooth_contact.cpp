@@ -125,13 +125,14 @@ bool start_after_leap(ContactContext& context, const SearchStructures& search, c
   if (!was_put_elsewhere(step_of(context)) || context.settings.method != Method::robust) return false;
   const SeedResult seeded = seed_contact(context, search, state.plane, false);
   const double rank = contact_rank(context.finger, decided.contact.contact);
-  decided.evaluations += seeded.evaluations;
-  if (!seeded.best.converged() ||
-      !(contact_rank(context.finger, seeded.best.contact) < takeover_bound_m(context.settings, rank)))
-    return false;
-  decide_start(seeded, state.plane, decided);
-  decided.evaluations -= seeded.evaluations;  // counted once
-  return true;
+  const bool deeper = seeded.best.converged() &&
+                      contact_rank(context.finger, seeded.best.contact) < takeover_bound_m(context.settings, rank);
+  if (deeper) {
+    decide_start(seeded, state.plane, decided);
+  } else {
+    decided.evaluations += seeded.evaluations;
+  }
+  return deeper;
 }
 
 /// Whether a place at which a lost contact was started anew can't have been entered.
@@ -158,7 +159,8 @@ void find_smooth_contact(ContactContext& context, const SearchStructures& search
   }
   Followed followed = first ? Followed::lost : follow(context, state.plane, sample_is_kept, decided.contact);
   decide_followed(followed, first, decided);
-  if (followed != Followed::lost && start_after_leap(context, search, state, decided)) followed = Followed::lost;
+  const bool started = followed != Followed::lost && start_after_leap(context, search, state, decided);
+  if (started) followed = Followed::lost;
   if (followed != Followed::lost) {
     const double depth = decided.contact.contact.penetration_m;
     if (!(depth > 0.0)) {
@@ -167,10 +169,11 @@ void find_smooth_contact(ContactContext& context, const SearchStructures& search
       state.unentered = is_unentered(context, state, decided.contact);
     }
     if (!touched) return watch_others(context, search, state, decided);
-  } else if (state.clearance = Clearance{}; touched && go_on_with_touched(context, state, decided, *touched)) {
+  } else if (state.clearance = Clearance{};
+             touched && !started && go_on_with_touched(context, state, decided, *touched)) {
     state.unentered = 0;
   } else {
-    if (decided.event != TickEvent::reseed) start_anew(context, search, first, state, decided);
+    if (!started) start_anew(context, search, first, state, decided);
     if (!decided.facing())  // there, nothing could be entered
       state.unentered = !first && is_new_unentered(context, state, decided.contact);
   }

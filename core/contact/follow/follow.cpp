@@ -51,10 +51,10 @@ bool went_on_to_side(ContactContext& context, const TrackedPlane& kept, Iteratio
   const EdgeLink other = mesh.across(kept.triangle, kept.side);
   const std::pair<std::uint32_t, Vec2> sides[] = {{kept.triangle, edge_point_uv(kept.side, f)},
                                                   {other.triangle, edge_point_uv(other.edge, 1.0 - f)}};
-  const int evaluations = result.evaluations;
+  int evaluations = result.evaluations;
   for (const auto& [triangle, uv] : sides) {
     iterate(context, place_on_face(triangle, uv.x, uv.y), kTrackBudget, result);
-    result.evaluations += evaluations;
+    result.evaluations = evaluations += result.evaluations;
     if (result.converged() && result.contact.height_m < 0.0) return true;
   }
   return false;
