@@ -340,7 +340,7 @@ TEST_CASE("ground that the tree takes for steady under an ellipsoid or a capsule
     PatchCache cache(mesh);
     const Finger finger = finger_of(shape);
     int steady = 0, wrong = 0;
-    for (int i = 0; i < rounds(50); ++i) {
+    for (int i = 0; i < 50; ++i) {
       const FingerPose pose{(0.036 + finger.reach_m()) * random.direction(), random.orientation()};
       const FingerCore core(finger, pose);
       ContactQuery query;
