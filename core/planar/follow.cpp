@@ -258,10 +258,10 @@ bool end_contact(const PlanarContext& x, std::uint32_t patch, bool after, Planar
     const LineSample there =
         after ? x.curve.sample(x.curve.after(patch), kind, 0.0) : x.curve.sample(x.curve.before(patch), kind, 1.0);
     const Vec2 in = after ? here.direction : there.direction, out = after ? there.direction : here.direction;
+    // Within the fan: past the end of the one side and before the start of the other.
+    if (glm::dot(arm, in) < 0.0 || glm::dot(arm, out) > 0.0) return false;
     // Convex towards the finger: stable from outside. In a notch only a finger behind the surface rests on the vertex.
     if (x.curve.side() * cross(in, out) > 0.0) sign = -1.0;
-    // Within the fan: past the end of the one side and before the start of the other.
-    if (sign * glm::dot(arm, in) < 0.0 || sign * glm::dot(arm, out) > 0.0) return false;
     const Vec2 mean = here.normal + there.normal;
     if (glm::dot(sign * arm, mean) < 0.0) return false;
   }

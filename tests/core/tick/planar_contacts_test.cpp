@@ -165,6 +165,40 @@ TEST_CASE("in a sharp notch the finger rests on the side it is deeper in and cha
   CHECK(switches == 1);
 }
 
+TEST_CASE("a point pressed into a sharp notch is held by its corner, whose normal turns from side to side") {
+  for (const double half_deg : {5.0, 30.0, 45.0, 60.0, 85.0}) {
+    const double half = half_deg * kDegree;
+    const Vec2 side(0.04 * std::sin(half), 0.04 * std::cos(half));
+    const PlanarCurve notch = curve_of({{-side.x, side.y}, {0.0, 0.0}, {0.0, 0.0}, side});
+    const Preset preset = sphere_preset(0.0, Method::robust);
+    TickState state;
+    int on_vertex = 0, astray = 0;
+    double most = 0.0;  // metres by which the force changes more than the finger moves
+    Vec3 last_force(0.0), last_at(0.0);
+    for (int i = -300; i <= 300; ++i) {
+      // Beneath the corner from side to side, 0 to 3 mm deep, the last part of the way under the sides.
+      const double turn = 0.5 * kPi / 200.0 * i, deep = 0.0015 * (1.0 - std::cos(0.02 * i)) + 1e-4;
+      const Vec3 at = deep * Vec3(std::sin(turn), -std::cos(turn), 0.0);
+      // Not outside, and not where a place of either kind is within the tolerance.
+      if (std::abs(turn) > kPi - half - 0.01 || std::abs(std::abs(turn) + half - 0.5 * kPi) < 0.01) continue;
+      const TickOutput out = step_planar(notch, preset, at_position(1e-3 * i, at), state, nullptr);
+      CAPTURE(half_deg);
+      CAPTURE(i);
+      const bool in_fan = std::abs(turn) < 0.5 * kPi - half;
+      REQUIRE(out.status == (in_fan ? TickStatus::vertex : TickStatus::face));
+      on_vertex += in_fan;
+      if (in_fan) astray += deep * glm::distance(out.normal, -at / deep) > 1e-6;
+      if (out.event != TickEvent::first)
+        most = std::max(most, glm::distance(out.decided_force_n, last_force) / 800.0 - glm::distance(at, last_at));
+      last_force = out.decided_force_n;
+      last_at = at;
+    }
+    CHECK(on_vertex > 10);
+    CHECK(astray == 0);
+    CHECK(most < 2e-6);
+  }
+}
+
 TEST_CASE("beyond an open end the contact rests on the end vertex") {
   const PlanarCurve line = curve_of({{0.0, 0.0}, {0.05, 0.0}, {0.1, 0.01}});
   for (const Method method : {Method::paper, Method::robust}) {

@@ -33,6 +33,16 @@ TEST_CASE("causes on polygons that are known by construction are told right and 
   }
 }
 
+TEST_CASE("a point that crosses a sharp notch, over its corner or past it, wants no explaining") {
+  Random random(1911);
+  int wanted = 0;
+  for (int i = 0; i < 1000; ++i) {
+    MadeFailure made = notch_crossed(random);
+    wanted += wants_explaining(Stepper(made.scene).step(made.preset, made.input, made.before));
+  }
+  CHECK(wanted == 0);
+}
+
 TEST_CASE("on a polygon the numbers that decided are those of the ground") {
   Random random(1909);
   for (int i = 0; i < 10; ++i) {
