@@ -14,13 +14,23 @@ namespace {
 constexpr double kStraightSine = 1e-9;
 /// Places leave the control triangle by less than this part of its size, as long as it turns by less than kSharpTurn
 /// (rad): measured over 4,000 ratios of its legs up to 100, by 0.089 and 0.094 for the two local centres. With the
-/// bisectors' centre by less than the turn's third power, too. Where a patch turns further, the bisectors' places run
-/// off to infinity: those beyond the larger room are none of the curve.
-constexpr double kPlaceRoom = 0.1, kSharpTurn = 1.5, kSharpRoom = 0.5;
+/// bisectors' centre by less than the turn's third power, too. Where a patch turns further, by 0.138 with that one.
+constexpr double kPlaceRoom = 0.1, kSharpTurn = 1.5, kSharpRoom = 0.15;
+/// Of a patch that turns by more than a right angle the bisectors meet beyond the longer segment if the other one is
+/// short enough. Their centre then lies on one of the tangent lines, and near that one places run off to infinity: such
+/// a patch takes the other centre. Larger, to 1: places are as near, but the centre comes too near to the curve to tell
+/// angles; smaller: patches take the other one in vain.
+constexpr double kMeetBehind = 0.9;
 /// Distances are rounded at some 1e-16 of the coordinates; boxes are wider than that, as a part of the polygon's size.
 constexpr double kRoundingRoom = 1e-14;
 
 double angle(const Vec2& from, const Vec2& to) { return std::atan2(cross(from, to), glm::dot(from, to)); }
+
+/// Whether the perpendicular bisectors of two segments meet in front of both, with some room.
+bool bisectors_meet(const Vec2& along1, const Vec2& along2) {
+  const double shorter2 = std::min(glm::dot(along1, along1), glm::dot(along2, along2));
+  return glm::dot(along1, along2) > -kMeetBehind * shorter2;
+}
 
 /// Where the perpendicular bisectors of two segments meet, which leave their midpoints at right angles.
 Vec2 bisector_centre(const Vec2& mid1, const Vec2& along1, const Vec2& mid2, const Vec2& along2) {
@@ -35,8 +45,8 @@ void add_centres(CurvePatch& patch, const Vec2& previous, const Vec2& next) {
   const double scale = std::sqrt(glm::dot(l1, l1) * glm::dot(l2, l2));
   patch.straight = !(scale > 0.0) || std::abs(cross(l1, l2)) <= kStraightSine * scale;
   if (patch.straight) return;
-  patch.centre[0] = bisector_centre(patch.first, l1, patch.last, l2);
   patch.centre[1] = 0.5 * (previous + next);
+  patch.centre[0] = bisectors_meet(l1, l2) ? bisector_centre(patch.first, l1, patch.last, l2) : patch.centre[1];
   for (std::size_t i = 0; i < 2; ++i)
     patch.turn_rad[i] = angle(patch.first - patch.centre[i], patch.last - patch.centre[i]);
 }
@@ -204,7 +214,7 @@ LineSample PlanarCurve::sample(std::uint32_t i, LocalCentre kind, double t) cons
   const double along_t = (above_t - along * below_t) / below;
   s.place = s.foot + along * s.direction;
   s.place_t = s.foot_t + along_t * s.direction + along * s.direction_t;
-  // A local centre on the tangent line itself has no such place; the midpoint centre can get there.
+  // A local centre on the tangent line itself has no such place; before t = 0 and after 1 it can get there.
   if (!std::isfinite(s.place.x + s.place.y + s.place_t.x + s.place_t.y)) {
     s.place = p12 + t * way;
     s.place_t = 2.0 * way;

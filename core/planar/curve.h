@@ -28,7 +28,7 @@ enum class CurveJoint : std::uint8_t {
 
 struct CurvePatch {
   Vec2 first, vertex, last;        ///< P1, P2, P3, m
-  std::array<Vec2, 2> centre;      ///< by LocalCentre, m
+  std::array<Vec2, 2> centre;      ///< by LocalCentre, m; both the midpoint where the bisectors' would leave a hole
   std::array<double, 2> turn_rad;  ///< by LocalCentre: angle from P1 to P3 about it, signed
   bool straight = false;           ///< P1, P2, P3 on one line: parameters are parts of the way
   CurveJoint joint_before = CurveJoint::smooth, joint_after = CurveJoint::smooth;

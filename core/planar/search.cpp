@@ -39,8 +39,6 @@ class PatchSearch {
     bool found = false;
     const auto consider = [&](const PlanarContact& contact) {
       if (!contact.converged() || contact.stability <= 0.0 || std::abs(contact.height_m) >= below) return;
-      // A sharp patch has places that are nowhere near it.
-      if (x_.curve.distance_bound_m(i_, x_.settings.local_centre, contact.place.point) > 0.0) return;
       if (rival.besides.feature != Feature::none &&
           glm::length(contact.place.point - rival.besides.point) <= kSameContact * x_.settings.tolerance_m)
         return;

@@ -1,4 +1,5 @@
 #include "core/planar/curve.h"
+#include "core/base/units.h"
 #include "core/lab/objects/arc.h"
 
 #include <doctest/doctest.h>
@@ -48,6 +49,31 @@ TEST_CASE("a place on a tangent line has its t as parameter, and derivatives mat
       }
     }
   }
+}
+
+TEST_CASE("however sharp a patch and unequal its segments, its places go on along it and stay within the room") {
+  int astray = 0, gaps = 0, other_centre = 0;
+  for (int turn_deg = 5; turn_deg < 180; turn_deg += 5) {
+    for (const double ratio : {1.0, 0.9, 0.8, 0.6, 0.4, 0.2, 0.05, 0.01}) {
+      const double turn = turn_deg * kDegree;
+      const Vec2 bend(0.1, 0.0), end = bend + 0.1 * ratio * Vec2(std::cos(turn), std::sin(turn));
+      const PlanarCurve curve = curve_of({{0, 0}, bend, end});
+      const CurvePatch& p = curve.patch(1);
+      other_centre += p.centre[0] == p.centre[1] && turn_deg != 90;
+      for (const LocalCentre centre : kCentres) {
+        Vec2 before = p.first;
+        for (int k = 1; k <= 400; ++k) {
+          const LineSample s = curve.sample(1, centre, k / 400.0);
+          astray += curve.distance_bound_m(1, centre, s.place) > 0.0;
+          gaps += glm::length(s.place - before) > 0.02;  // of 100 mm
+          before = s.place;
+        }
+      }
+    }
+  }
+  CHECK(astray == 0);
+  CHECK(gaps == 0);
+  CHECK(other_centre > 50);
 }
 
 TEST_CASE("the bisectors' centre of equal segments is the centre of the circle through the vertices") {

@@ -177,6 +177,25 @@ TEST_CASE("the polygon's nearest segment and its obstacles are those of a scan, 
   CHECK(differ == 0);
 }
 
+TEST_CASE("a ragged open outline of sharp, unequal patches holds a contact wherever the finger is") {
+  Random random(21);
+  int without = 0, lines = 0;
+  constexpr int kPoses = 4000;
+  for (int outline = 0; outline < 20; ++outline) {
+    std::vector<Vec2> v;
+    for (int i = 0; i <= 100; ++i) v.emplace_back(4e-4 * i, random.in(-8e-4, 8e-4));
+    const PlanarCurve curve = searched_curve(v);
+    for (int pose = 0; pose < kPoses / 20; ++pose) {
+      const Vec2 at(random.in(-0.005, 0.045), random.in(-0.004, 0.004));
+      const PlanarContext x{curve, SolverSettings{}, at - curve.origin(), 0.0, nullptr, 0};
+      PlanarContact best;
+      without += !nearest_contact(x, {kInfinity, {}}, best, lines);
+    }
+  }
+  CHECK(without == 0);
+  CHECK(lines < 30 * kPoses);
+}
+
 TEST_CASE("between two equally near patches the lowest holds the contact") {
   const PlanarCurve square = searched_curve(
       {{-1.0, -1.0}, {0.0, -1.0}, {1.0, -1.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}, {-1.0, 1.0}, {-1.0, 0.0}}, true);
