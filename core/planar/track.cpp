@@ -36,7 +36,7 @@ class Tracker {
         out_.event = TickEvent::reseed;
         found_again_ = true;
         find_again(limit);
-      } else if (leapt(kept)) {
+      } else if (leapt(last)) {
         out_.event = TickEvent::branch;
       }
     }
@@ -66,11 +66,14 @@ class Tracker {
     out_.contact = contact;
   }
 
-  /// Whether the contact did not go on but fell from a fold to another place: the normal has turned far, and the ground
+  /// Whether the contact did not go on but fell to another place: the normal has turned far, and either the depth has
+  /// changed by more than the finger's motion explains, as where it slides off an open end from behind, or the ground
   /// on the way there cannot hold a stable contact at this pose.
-  bool leapt(const PlanarPlace& kept) const {
-    const PlanarPlace& now = out_.contact.place;
+  bool leapt(const PlanarKept& last) const {
+    const PlanarPlace &kept = last.place, &now = out_.contact.place;
     if (glm::dot(kept.normal, now.normal) >= kJumpCosine) return false;
+    const double change_m = std::max(0.0, depth_m(out_.contact)) - std::max(0.0, last.depth_m);
+    if (!last.unentered && std::abs(change_m) > 2.0 * x_.moved_m + x_.settings.switch_hysteresis_m) return true;
     const auto count = static_cast<double>(x_.curve.patch_count());
     const double from = kept.patch + kept.t;
     double way = now.patch + now.t - from;

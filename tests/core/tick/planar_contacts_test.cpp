@@ -319,6 +319,24 @@ TEST_CASE("past the rim and behind an open outline nothing pushes that was not e
   }
 }
 
+TEST_CASE("a point that slides off an open end from behind is let go in one tick, which says so") {
+  const PlanarCurve sheet = curve_of({{-0.1, 0.0}, {-0.05, 0.0}, {0.0, 0.0}, {0.05, 0.0}});
+  const Preset preset = sphere_preset(0.0, Method::robust);
+  TickState state;
+  int branches = 0, other_events = 0, still_pushed = 0;
+  for (int i = 0; i < 80; ++i) {
+    // Pressed in by 1 mm, then along and past the end.
+    const Vec3 at(0.049 + 5e-5 * std::max(0, i - 30), -5e-5 * std::min(20, i - 5), 0.0);
+    const TickOutput out = step_planar(sheet, preset, at_position(1e-3 * i, at), state, nullptr);
+    branches += out.event == TickEvent::branch;
+    other_events += out.event != TickEvent::branch && out.event != TickEvent::none && i > 0;
+    if (at.x > 0.05 + 1e-9) still_pushed += glm::length(out.decided_force_n) > 0.0;
+  }
+  CHECK(branches == 1);
+  CHECK(other_events == 0);
+  CHECK(still_pushed == 0);
+}
+
 TEST_CASE("a small finger round a sharp corner of an outline goes on without an event, however fast it turns") {
   const PlanarCurve roof = curve_of({{-0.1, 0.0}, {0.0, 0.1}, {0.0, 0.1}, {0.1, 0.0}});
   for (const double speed : {2e-5, 1e-4, 3e-4}) {  // metres a tick
