@@ -52,6 +52,14 @@ class Tracker {
   FingerStep finger_step() const { return {x_.moved_m, x_.settings.switch_hysteresis_m}; }
   double depth_m(const PlanarContact& contact) const { return x_.radius_m - contact.height_m; }
 
+  TouchedContact touched_of(const PlanarContact& contact) const {
+    TouchedContact touched;
+    touched.plane.normal = lifted(contact.place.normal);
+    touched.contact.height_m = contact.height_m;
+    touched.contact.penetration_m = depth_m(contact);
+    return touched;
+  }
+
   void follow_from(const PlanarPlace& start, bool kept, int budget) { take(follow(x_, start, kept, budget)); }
   /// Whether the contact, found again or followed round a rim to the other side, has been entered.
   void look_from_outside(double before_m) {
@@ -120,6 +128,9 @@ class Tracker {
     const bool anew = out_.event == TickEvent::first || found_again_;
     const double tracked = out_.unentered ? 0.0 : depth_m(out_.contact);
     if (!anew && !was_entered(finger_step(), depth_m(rival), tracked)) return;
+    if (!anew && tracked > 0.0 && !was_put_elsewhere(finger_step()) &&
+        is_far_side(touched_of(rival), touched_of(out_.contact)))
+      return;
     take_found(rival);
     out_.unentered = false;
     if (out_.event != TickEvent::first) out_.event = TickEvent::switched;

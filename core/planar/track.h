@@ -21,9 +21,9 @@ struct PlanarKept {
   bool unentered = false;  ///< of the place
 };
 
-/// Each tick asks the index for the patches that could
-/// hold a place nearer than the tracked one by more than the hysteresis, the tracked one's own patch among them, and
-/// solves on those. One that the finger can't have entered from outside does not take over.
+/// Each tick asks the index for the patches that could hold a place nearer than the tracked one by more than the
+/// hysteresis, the tracked one's own patch among them, and solves on those. One that the finger can't have entered from
+/// outside does not take over, nor does the far side of what it is in.
 PlanarTrack track_planar(PlanarContext context, const PlanarKept& kept);
 
 }  // namespace tangent

@@ -337,6 +337,29 @@ TEST_CASE("a point that slides off an open end from behind is let go in one tick
   CHECK(still_pushed == 0);
 }
 
+TEST_CASE("a finger pushed through a thin outline is pushed back until it has left on the far side") {
+  std::vector<Vec2> v;
+  for (const double y : {-0.001, 0.001})
+    for (int i = -3; i <= 3; ++i) v.emplace_back(y < 0.0 ? 0.01 * i : -0.01 * i, y);
+  const PlanarCurve plate = curve_of(v, true);
+  for (const double radius : {0.0, 0.005}) {
+    const Preset preset = sphere_preset(radius, Method::robust);
+    TickState state;
+    int back = 0, on = 0, pushed_outside = 0;
+    for (int i = 0; i < 400; ++i) {
+      const Vec3 at(0.002 * std::sin(0.01 * i), 0.0011 + radius - 5e-5 * i, 0.0);
+      const TickOutput out = step_planar(plate, preset, at_position(1e-3 * i, at), state, nullptr);
+      back += out.decided_force_n.y > 0.0;
+      on += out.decided_force_n.y < -1e-9;
+      if (at.y < -0.001 - radius - 1e-6) pushed_outside += glm::length(out.decided_force_n) > 0.0;
+    }
+    CAPTURE(radius);
+    CHECK(back > 30);
+    CHECK(on == 0);
+    CHECK(pushed_outside == 0);
+  }
+}
+
 TEST_CASE("a small finger round a sharp corner of an outline goes on without an event, however fast it turns") {
   const PlanarCurve roof = curve_of({{-0.1, 0.0}, {0.0, 0.1}, {0.0, 0.1}, {0.1, 0.0}});
   for (const double speed : {2e-5, 1e-4, 3e-4}) {  // metres a tick
