@@ -114,6 +114,10 @@ inline constexpr double kLeapDepth = 1.25;
 /// the finger has come by behind them. Larger: sheets push from behind; smaller: an honest switch is refused.
 inline constexpr double kEnteredDepth = 5.0;
 
+/// Way of a search that is late up to which a place may have been entered meanwhile, 1 mm. Larger: what is behind a
+/// rough sheet pushes after a long search; smaller: a place that was entered in front of a fast finger does not.
+inline constexpr double kMostLateEntry = 50.0;
+
 /// A finger that goes further in one tick, 5 mm, has been put elsewhere, and what it is in counts as entered.
 inline constexpr double kLeapOfFinger = 250.0;
 

@@ -15,6 +15,12 @@
 
 namespace tangent {
 
+/// Square of the distance from a point to a box, 0 inside.
+inline double distance2_to_box(const Vec3& low, const Vec3& high, const Vec3& point) {
+  const Vec3 gap = glm::max(glm::max(low - point, point - high), Vec3(0.0));
+  return glm::dot(gap, gap);
+}
+
 struct FloatBox {
   std::array<float, 3> min, max;
 
@@ -22,13 +28,8 @@ struct FloatBox {
   void include(const FloatBox& other);
   Vec3 low() const { return {min[0], min[1], min[2]}; }
   Vec3 high() const { return {max[0], max[1], max[2]}; }
+  double distance2(const Vec3& point) const { return distance2_to_box(low(), high(), point); }
 };
-
-/// Square of the distance from a point to a box, 0 inside.
-inline double distance2_to_box(const Vec3& low, const Vec3& high, const Vec3& point) {
-  const Vec3 gap = glm::max(glm::max(low - point, point - high), Vec3(0.0));
-  return glm::dot(gap, gap);
-}
 
 class BoxTree {
  public:
@@ -43,12 +44,18 @@ class BoxTree {
   /// square of the distance up to which things are wanted still; it may shrink on the way.
   template <class Reach, class Farthest, class Visit>
   bool visit(const Reach& reach2, const Farthest& farthest2, Visit&& visit) const {
-    return visit_nodes([&](std::uint32_t, const Vec3& low, const Vec3& high) { return reach2(low, high); }, farthest2,
-                       visit);
+    return visit_from(
+        {}, [&](std::uint32_t, const Vec3& low, const Vec3& high) { return reach2(low, high); }, farthest2, visit);
   }
-  /// The same, reach2(number of a node, low, high).
+  /// Where a visit by the distance from a point begins: at a leaf that another one ended at, or at the first (0).
+  struct Start {
+    std::uint32_t leaf = 0;
+    Vec3 point{0.0};
+  };
+  /// The same, reach2(number of a node, low, high). Where it ends before, `ended`, if given, becomes the leaf.
   template <class Reach, class Farthest, class Visit>
-  bool visit_nodes(const Reach& reach2, const Farthest& farthest2, Visit&& visit) const;
+  bool visit_from(const Start& start, const Reach& reach2, const Farthest& farthest2, Visit&& visit,
+                  std::uint32_t* ended = nullptr) const;
 
   std::size_t node_count() const { return nodes_.size(); }
   bool is_leaf(std::uint32_t node) const { return (nodes_[node].link & kLeaf) != 0; }
@@ -74,7 +81,8 @@ class BoxTree {
 };
 
 template <class Reach, class Farthest, class Visit>
-bool BoxTree::visit_nodes(const Reach& reach2, const Farthest& farthest2, Visit&& visit) const {
+bool BoxTree::visit_from(const Start& start, const Reach& reach2, const Farthest& farthest2, Visit&& visit,
+                         std::uint32_t* ended) const {
   struct Entry {
     std::uint32_t node;
     double reach2;
@@ -84,23 +92,37 @@ bool BoxTree::visit_nodes(const Reach& reach2, const Farthest& farthest2, Visit&
   };
   std::array<Entry, kMaxDepth> stack;
   std::size_t size = 0;
-  if (const Entry root = entry_of(0); root.reach2 >= 0.0) stack[size++] = root;
+  const auto push = [&](const Entry& entry) {
+    if (entry.reach2 >= 0.0) stack[size++] = entry;
+  };
+  // What is left from that leaf on: of two siblings the nearer box was visited first.
+  std::uint32_t first = 0;
+  while (first != start.leaf && !(nodes_[first].link & kLeaf)) {
+    const std::uint32_t a = first + 1, b = nodes_[first].link;
+    const bool in_a = start.leaf < b,
+               a_first = nodes_[a].box.distance2(start.point) <= nodes_[b].box.distance2(start.point);
+    if (in_a == a_first) push(entry_of(in_a ? b : a));
+    first = in_a ? a : b;
+  }
+  push(entry_of(first));
   while (size > 0) {
     const Entry entry = stack[--size];
     if (entry.reach2 > farthest2()) continue;
     const Node& node = nodes_[entry.node];
     if (node.link & kLeaf) {
-      const std::uint32_t first = node.link & ((1u << kFirstBits) - 1);
+      const std::uint32_t first_box = node.link & ((1u << kFirstBits) - 1);
       const std::uint32_t count = ((node.link & ~kLeaf) >> kFirstBits) + 1;
-      for (std::uint32_t i = first; i < first + count; ++i)
-        if (!visit(order_[i])) return false;
+      for (std::uint32_t i = first_box; i < first_box + count; ++i) {
+        if (visit(order_[i])) continue;
+        if (ended) *ended = entry.node;
+        return false;
+      }
       continue;
     }
     const Entry a = entry_of(entry.node + 1), b = entry_of(node.link);
     const bool a_first = a.reach2 <= b.reach2;
-    const Entry &near = a_first ? a : b, &far = a_first ? b : a;
-    if (far.reach2 >= 0.0) stack[size++] = far;
-    if (near.reach2 >= 0.0) stack[size++] = near;
+    push(a_first ? b : a);
+    push(a_first ? a : b);
   }
   return true;
 }

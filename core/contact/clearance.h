@@ -20,6 +20,12 @@ struct WatchedTriangle {
   bool operator==(const WatchedTriangle&) const = default;
 };
 
+/// Where a visit of the contact hierarchy begins, and where it broke off: numbers of nodes, of the tree over its parts
+/// and of a part.
+struct VisitPlace {
+  std::uint32_t part = 0, node = 0;
+};
+
 /// Where no other place can be deeper than the tracked one: in a ball about the place where that was found out last.
 /// Within it nothing is asked, however long the finger moves there. All distances are the finger's from `centre` and
 /// `orientation` (prove/clearance_check.h: gone_m).
@@ -37,9 +43,13 @@ struct Clearance {
   double ahead_m = -1.0;
   double ahead_height_m = 0.0;  ///< what ranks behind this at ahead_centre was not looked at
   std::uint32_t watched_count : 16 = 0;
-  std::uint32_t any_turn : 16 = 1;  ///< 0: holds at `orientation` alone; a finger that is not round and does not turn
+  std::uint32_t any_turn : 1 = 1;  ///< 0: holds at `orientation` alone; a finger that is not round and does not turn
+  /// A search from `centre` and `orientation` is under way, and the next tick goes on with it at `next`. Until its end
+  /// nothing is known (free_m < 0); margins are those so far, ahead_height_m the rank that is asked for.
+  std::uint32_t under_way : 1 = 0;
   float ahead = 1.0f;  ///< how far the next search of everything looks ahead, as a ratio: further where that is cheap
   std::array<WatchedTriangle, kWatched> watched;  ///< the first watched_count, in no order
+  VisitPlace next;
 
   std::span<WatchedTriangle> on_watch() { return {watched.data(), watched_count}; }
   std::span<const WatchedTriangle> on_watch() const { return {watched.data(), watched_count}; }

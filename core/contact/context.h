@@ -20,6 +20,7 @@ struct ContactContext {
   double moved_m = 0.0;                 ///< the way of the finger's furthest point since the last tick
   Vec3 moved{0.0};                      ///< the way of its centre
   int most_crossings = kMostCrossings;  ///< triangles that a step may cross; of the kept contact, kMostTrackedCrossings
+  double late_m = 0.0;                  ///< way before that, in which a deeper place may have come up unnoticed
   const FingerCore* core = nullptr;     ///< for proofs, of a finger that is not round; set by searches
 
   /// A length given in switch hystereses (base/tolerances.h), m.

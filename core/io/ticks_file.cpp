@@ -93,8 +93,8 @@ Status append_tick_row(std::string& text, const TickRow& row) {
   append_field(text, to_string(o.event));
   append_field(text, row.solve_ns);
   append_field(text, o.decided_force_n);
-  append_double(text, o.decided_cld_m);
-  text += '\n';
+  append_field(text, o.decided_cld_m);
+  text += o.searching ? "1\n" : "0\n";
   return {};
 }
 

@@ -15,7 +15,7 @@ namespace tangent {
 inline constexpr std::string_view kTicksHeader =
     "tick,t_s,status,triangle,u,v,contact_x_m,contact_y_m,contact_z_m,normal_x,normal_y,normal_z,penetration_m,"
     "force_x_n,force_y_n,force_z_n,cld_m,error_m,iterations,triangle_changes,event,solve_ns,"
-    "decided_force_x_n,decided_force_y_n,decided_force_z_n,decided_cld_m";
+    "decided_force_x_n,decided_force_y_n,decided_force_z_n,decided_cld_m,searching";
 
 inline constexpr std::string_view kIterationsHeader =
     "tick,iteration,seed,stop,feature,triangle,u,v,point_x_m,point_y_m,point_z_m,normal_x,normal_y,normal_z,"

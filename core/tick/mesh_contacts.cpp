@@ -122,6 +122,7 @@ void describe_smooth(const DecidedContact& decided, const TickContext& tick, Tic
   out.error_m = c.contact.error_m;
   out.iterations = decided.evaluations;
   out.triangle_changes = decided.triangle_changes;
+  out.searching = decided.searching;
 }
 
 /// Facet and force shading.

@@ -23,6 +23,7 @@ void watch_others(ContactContext& context, const SearchStructures& search, TickS
   const double ahead = look_ahead_m(context, rank, state.clearance.ahead);
   const RivalResult rival = find_rival(context, search, decided.contact, {bound, ahead, false}, state.clearance,
                                        gone_to(context, state, gone));
+  decided.searching = rival.searching;
   const double depth = state.unentered ? 0.0 : decided.contact.contact.penetration_m;
   const bool taken_over = decide_rival(context, rival, depth, state.plane, decided);
   state.clearance = taken_over ? Clearance{} : rival.clearance;
@@ -66,6 +67,7 @@ bool look_for_touched(ContactContext& context, const SearchStructures& search, d
   RivalResult rival = find_rival(context, search, decided.contact, {bound, ahead, stays, &touched}, state.clearance,
                                  gone_to(context, state, gone));
   state.clearance = rival.clearance;
+  decided.searching = rival.searching;
   // Where the contact was lost and a shallower one is gone on with, what the lost one was counts, too.
   const double depth =
       std::max(depth_before(context, state), state.unentered ? 0.0 : decided.contact.contact.penetration_m);
@@ -149,8 +151,8 @@ bool is_new_unentered(const ContactContext& context, const TickState& state, con
 
 }  // namespace
 
-void find_smooth_contact(ContactContext& context, const SearchStructures& search, bool sample_is_kept, TickState& state,
-                         DecidedContact& decided, TouchedContacts* touched) {
+static void find_and_watch(ContactContext& context, const SearchStructures& search, bool sample_is_kept,
+                           TickState& state, DecidedContact& decided, TouchedContacts* touched) {
   const bool first = state.plane.feature == Feature::none;
   decided.places_changed = false;
   if (!touched && state.touched.count > 0) {  // they were followed until now, and are looked for no more
@@ -181,6 +183,14 @@ void find_smooth_contact(ContactContext& context, const SearchStructures& search
   touched->count = 0;
   if (decided.converged()) watch_touched(context, search, state, decided, *touched);
   if (touched->count > 0 || state.touched.count > 0) state.touched = touched->places();
+}
+
+void find_smooth_contact(ContactContext& context, const SearchStructures& search, bool sample_is_kept, TickState& state,
+                         DecidedContact& decided, TouchedContacts* touched) {
+  context.late_m = double{state.late_m};
+  decided.searching = false;
+  find_and_watch(context, search, sample_is_kept, state, decided, touched);
+  state.late_m = decided.searching ? static_cast<float>(context.late_m + context.moved_m) : 0.0f;
 }
 
 }  // namespace tangent

@@ -7,8 +7,9 @@
 namespace tangent {
 
 /// `decided` of the last tick in, of this one out. `sample_is_kept`: decided.contact still is the plane and sample of
-/// state.plane. The context's pose is local. Of the state only the clearance is changed, where something was looked at,
-/// and what is kept of `touched`: the other places that push together with the decided one; null: none are asked for.
+/// state.plane. The context's pose is local. Of the state only the clearance and how late it is are changed, where
+/// something was looked at, and what is kept of `touched`: the other places that push together with the decided one;
+/// null: none are asked for.
 void find_smooth_contact(ContactContext& context, const SearchStructures& search, bool sample_is_kept, TickState& state,
                          DecidedContact& decided, TouchedContacts* touched);
 

@@ -56,6 +56,7 @@ struct TickState {
   std::uint8_t has_converged = 0;  ///< there was a converged tick
   std::uint8_t has_proxy = 0;      ///< proxy is set
   std::uint8_t unentered = 0;      ///< the tracked place was found from behind: it does not push until it is left
+  float late_m = 0.0f;  ///< the finger's way while a search for deeper places was not done: so late one may be found
   Clearance clearance;
   Vec3 proxy{0.0};        ///< of the two-pass method, local, m
   TouchedPlaces touched;  ///< beside `plane`, where the force comes from all of them
@@ -100,6 +101,8 @@ struct TickOutput {
   Vec3 decided_force_n{0.0};  ///< force and display before they were blended with those of the last tick
   double decided_cld_m = 0.0;
   Vec3 way_out_m{0.0};  ///< of several places at once, which the force comes from (shading/way_out.h); 0: of the one
+  /// The search for deeper places has taken more than a tick's work and goes on at the next: there may be one.
+  bool searching = false;
 };
 
 /// What crosses the rings from the servo to its watchers: enough to compute the tick again.

@@ -74,6 +74,8 @@ void write_output(const TickOutput& from, uint64_t tick, double t_s, tangent_out
   to.iterations = from.iterations, to.triangle_changes = from.triangle_changes;
   copy_vector(from.decided_force_n, to.decided_force_n);
   to.decided_cld_m = from.decided_cld_m;
+  to.searching = from.searching ? 1 : 0;
+  to.reserved = 0;
 }
 
 /// Without allocating: a servo meets this in the middle of its work.

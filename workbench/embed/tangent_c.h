@@ -155,9 +155,11 @@ typedef struct tangent_output {
   double error_m;
   int32_t iterations, triangle_changes;
   double decided_force_n[3], decided_cld_m; /**< before the fade */
+  int32_t searching; /**< 1: the search for deeper places goes on at the next tick, so there may be one */
+  int32_t reserved;  /**< 0 */
 } tangent_output;
 #define TANGENT_OUTPUT_INIT \
-  { sizeof(tangent_output), 0, 0, 0.0, -1, 0, 0.0, 0.0, {0}, {0}, 0.0, {0}, 0.0, 0.0, 0, 0, {0}, 0.0 }
+  { sizeof(tangent_output), 0, 0, 0.0, -1, 0, 0.0, 0.0, {0}, {0}, 0.0, {0}, 0.0, 0.0, 0, 0, {0}, 0.0, 0, 0 }
 
 tangent_status tangent_make_stepper(const tangent_scene* scene, tangent_stepper** stepper);
 /** One tick. Allocates nothing, nor where a pose can't be used. On an error neither the state nor `output` changes. */

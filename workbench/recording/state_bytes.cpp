@@ -32,11 +32,14 @@ void describe(Stream& stream, WatchedTriangle& watched) {
 template <class Stream>
 void describe(Stream& stream, Clearance& c) {
   stream.all(c.centre, c.orientation, c.free_m, c.margin_m, c.height_m, c.ahead_centre, c.ahead_m, c.ahead_height_m);
-  auto count = static_cast<std::uint16_t>(c.watched_count), turn = static_cast<std::uint16_t>(c.any_turn);
-  stream.all(count, turn, c.ahead);
+  auto count = static_cast<std::uint16_t>(c.watched_count);
+  auto flags = static_cast<std::uint16_t>(c.any_turn | c.under_way << 1);
+  stream.all(count, flags, c.ahead);
   c.watched_count = std::min<std::uint16_t>(count, Clearance::kWatched);
-  c.any_turn = turn;
+  c.any_turn = (flags & 1u) != 0;
+  c.under_way = (flags & 2u) != 0;
   for (WatchedTriangle& watched : c.on_watch()) describe(stream, watched);
+  if (c.under_way) stream.all(c.next.part, c.next.node);
 }
 
 template <class Stream>
@@ -49,7 +52,7 @@ template <class Stream>
 void describe(Stream& stream, TickState& s) {
   describe(stream, s.plane);
   stream.all(s.last_converged.point, s.last_converged.normal, s.last_converged_s, s.last_position, s.last_orientation,
-             s.last_t_s, s.has_previous, s.has_converged, s.has_proxy, s.unentered);
+             s.last_t_s, s.has_previous, s.has_converged, s.has_proxy, s.unentered, s.late_m);
   describe(stream, s.clearance);
   stream.all(s.proxy, s.touched.count);
   s.touched.count = std::min<std::uint32_t>(s.touched.count, kMostTouched);

@@ -154,6 +154,9 @@ constexpr std::array kWhole{
     WholeColumn{"unready", input, "1: what it would search was not built yet, so it did not search", 0, 1,
                 [](const Tick& t) { return std::int64_t{t.record.tick.input.unready}; },
                 [](Tick& t, std::int64_t v) { t.record.tick.input.unready = v != 0; }},
+    WholeColumn{"searching", output, "1: the search for deeper places goes on at the next tick", 0, 1,
+                [](const Tick& t) { return std::int64_t{t.record.tick.output.searching}; },
+                [](Tick& t, std::int64_t v) { t.record.tick.output.searching = v != 0; }},
 };
 
 /// A state of a device: an enumeration of 8 bits.
@@ -240,7 +243,7 @@ std::string unit_of(std::string_view column) {
 std::uint64_t output_digest(const TickOutput& output) {
   Digest digest;
   digest.add(static_cast<std::uint64_t>(output.status) | static_cast<std::uint64_t>(output.event) << 8 |
-             std::uint64_t{output.triangle} << 32);
+             static_cast<std::uint64_t>(output.searching) << 16 | std::uint64_t{output.triangle} << 32);
   digest.add(static_cast<std::uint64_t>(static_cast<std::uint32_t>(output.iterations)) |
              static_cast<std::uint64_t>(static_cast<std::uint32_t>(output.triangle_changes)) << 32);
   digest.add(output.u);

@@ -31,6 +31,7 @@ constexpr std::array kColumns{
     KnownColumn{"triangle_changes", "Steps from one triangle to another", "integer", "1"},
     KnownColumn{"cld_m", "Position of the contact location display, computed", "double", "m"},
     KnownColumn{"decided_cld_m", "Position of the display before fading", "double", "m"},
+    KnownColumn{"searching", "Whether the search for deeper places goes on at the next tick", "integer", "1"},
     KnownColumn{"cld_sent_m", "Position of the display, sent by the safety gate", "double", "m"},
     KnownColumn{"cld_measured_m", "Position of the display, measured", "double", "m"},
     KnownColumn{"preset_id", "Number of the preset that the tick ran with", "integer", "1"},

@@ -24,7 +24,8 @@ bool was_put_elsewhere(const FingerStep& step) { return step.moved_m > kLeapOfFi
 
 bool was_entered(const FingerStep& step, double depth_m, double tracked_depth_m) {
   if (was_put_elsewhere(step)) return true;
-  const double explained = 2.0 * step.moved_m + (1.0 + kEnteredDepth) * step.switch_hysteresis_m;
+  const double late = std::min(step.late_m, kMostLateEntry * step.switch_hysteresis_m);
+  const double explained = 2.0 * (step.moved_m + late) + (1.0 + kEnteredDepth) * step.switch_hysteresis_m;
   return depth_m <= std::max(0.0, tracked_depth_m) + explained;
 }
 

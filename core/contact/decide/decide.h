@@ -17,6 +17,7 @@ struct DecidedContact {
   TickEvent event = TickEvent::none;
   int evaluations = 0;  ///< of the whole tick, lost tracking and seeds included
   int triangle_changes = 0;
+  bool searching = false;       ///< the search for deeper places goes on at the next tick
   bool places_changed = false;  ///< a place that pushes beside it came up, was lost, or folded over on the way
   bool converged() const { return contact.converged(); }
   bool facing() const { return contact.facing(); }
@@ -35,9 +36,10 @@ void decide_followed(Followed followed, bool first, DecidedContact& decided);
 struct FingerStep {
   double moved_m = 0.0;
   double switch_hysteresis_m = 0.0;
+  double late_m = 0.0;  ///< the way before that in which nobody looked
 };
 inline FingerStep step_of(const ContactContext& context) {
-  return {context.moved_m, context.settings.switch_hysteresis_m};
+  return {context.moved_m, context.settings.switch_hysteresis_m, context.late_m};
 }
 
 /// Whether the finger has been put elsewhere: what it is in then counts as entered.

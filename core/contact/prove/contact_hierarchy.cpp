@@ -1,5 +1,6 @@
 #include "core/contact/prove/contact_hierarchy.h"
 
+#include "core/contact/box_tree.h"
 #include "core/mesh/vertex_ring.h"
 #include "core/surface/mesh_patch.h"
 #include "core/surface/patch_curvature.h"
@@ -395,6 +396,24 @@ ContactHierarchy ContactHierarchy::build(const ContactMesh& mesh, std::span<cons
   ContactHierarchy tree;
   if (!triangles.empty()) ContactHierarchyBuilder(mesh, tree).build(triangles);
   return tree;
+}
+
+double ContactHierarchy::box_distance2(std::uint32_t index, const Vec3& point) const {
+  const Node& node = nodes_[index];
+  return distance2_to_box({node.min[0], node.min[1], node.min[2]}, {node.max[0], node.max[1], node.max[2]}, point);
+}
+
+// Of two siblings the nearer box was visited first, as long as neither was ruled out; one that was needs no visit.
+void ContactHierarchy::push_from(std::uint32_t from, const ContactQuery& query, Stack& stack) const {
+  for (std::uint32_t index = 0; index != from;) {
+    if (nodes_[index].link & kLeaf) return;  // of another tree
+    const std::uint32_t a = index + 1, b = nodes_[index].link;
+    const bool in_a = from < b, a_first = box_distance2(a, query.centre) <= box_distance2(b, query.centre);
+    const std::uint32_t other = in_a ? b : a;
+    if (in_a == a_first) stack.push({other, reach2(other, query)});
+    index = in_a ? a : b;
+  }
+  stack.push({from, reach2(from, query)});
 }
 
 Vec3 ContactHierarchy::Outline::centre() const {

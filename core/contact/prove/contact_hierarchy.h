@@ -28,6 +28,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -66,6 +67,9 @@ struct ContactQuery {
   const FingerCore* core_ahead = nullptr;  ///< the same in the middle of the look-ahead, where `ahead` is not 0
   double here_m = 0.0;  ///< set for the visitor: the margin that its triangle is asked for, margin_m or 0
   SearchPart part = SearchPart::whole;  ///< set for the visitor: what of its triangle is asked for
+  /// What has been done so far, of nodes and what the visitor adds (search/search_work.h), and when to break off.
+  int work = 0, most_work = std::numeric_limits<int>::max();
+  bool is_spent() const { return work >= most_work; }
 };
 
 /// Whether ground that bends between these curvatures, 1/m, is steady: does not fold at the heights of the query.
@@ -92,11 +96,14 @@ class ContactHierarchy {
   /// may shrink the query's bounds as it finds contacts, and returns false to end the search.
   template <class Visit>
   void visit(ContactQuery query, Visit visit) const {
-    visit_on(query, visit);
+    std::uint32_t from = 0;
+    visit_on(query, visit, from);
   }
-  /// The same as a part of a larger search, which sees how the query's bounds shrink. False: the visitor ended it.
+  /// The same as a part of a larger search, which sees how the query's bounds shrink, from a node on. False: it ended
+  /// before, by the visitor, or because the query is spent: then `from` is where to go on, with a query about the same
+  /// centre.
   template <class Visit>
-  bool visit_on(ContactQuery& query, Visit& visit) const;
+  bool visit_on(ContactQuery& query, Visit& visit, std::uint32_t& from) const;
   /// Whether it is certain that none of the triangles can hold such a contact.
   bool rules_out(const ContactQuery& query) const { return nodes_.empty() || reach2(nodes_[0], query) < 0.0; }
 
@@ -112,6 +119,7 @@ class ContactHierarchy {
   friend class ContactHierarchyBuilder;
   static constexpr std::uint32_t kLeaf = 0x80000000u;
   static constexpr int kMaxDepth = 64;
+  static constexpr int kNodeWork = 60, kCoreNodeWork = 120;  // a step down, search/search_work.h
 
   /// Preorder: the first child follows its parent.
   struct Node {
@@ -146,6 +154,21 @@ class ContactHierarchy {
   }
   /// Whether a finger that is not round can touch the node, whose box is that far from its centre, squared.
   static bool touchable(const Node& node, const ContactQuery& query, double box2);
+
+  struct Entry {
+    std::uint32_t node;
+    double reach2;
+  };
+  struct Stack {
+    std::array<Entry, kMaxDepth> entries;
+    int size = 0;
+    void push(const Entry& entry) {
+      if (entry.reach2 >= 0.0) entries[size++] = entry;
+    }
+  };
+  double box_distance2(std::uint32_t index, const Vec3& point) const;
+  /// What is left to visit from a node on.
+  void push_from(std::uint32_t from, const ContactQuery& query, Stack& stack) const;
 
   std::vector<Node> nodes_;
   static constexpr std::uint32_t kPartShift = 29, kTriangleBits = (1u << kPartShift) - 1;
@@ -217,18 +240,18 @@ inline double ContactHierarchy::reach2(const Node& node, const ContactQuery& q, 
 }
 
 template <class Visit>
-bool ContactHierarchy::visit_on(ContactQuery& query, Visit& visit) const {
-  struct Entry {
-    std::uint32_t node;
-    double reach2;
-  };
-  std::array<Entry, kMaxDepth> stack;
-  int size = 0;
-  if (!nodes_.empty()) stack[size++] = {0, 0.0};
-  while (size > 0) {
-    const Entry entry = stack[--size];
+bool ContactHierarchy::visit_on(ContactQuery& query, Visit& visit, std::uint32_t& from) const {
+  Stack stack;
+  if (from != 0 && from < nodes_.size()) {
+    push_from(from, query, stack);
+  } else if (!nodes_.empty()) {
+    stack.push({0, 0.0});
+  }
+  while (stack.size > 0) {
+    const Entry entry = stack.entries[--stack.size];
     const double farthest = std::max(query.nearest_m, query.inside_m);
     if (entry.reach2 > farthest * farthest) continue;
+    if (query.is_spent()) return from = entry.node, false;
     const Node& node = nodes_[entry.node];
     if (node.link & kLeaf) {
       const std::uint32_t entry_of_leaf = order_[node.link & ~kLeaf];
@@ -237,13 +260,12 @@ bool ContactHierarchy::visit_on(ContactQuery& query, Visit& visit) const {
       if (!visit(entry_of_leaf & kTriangleBits, query)) return false;
       continue;
     }
+    query.work += query.core ? kCoreNodeWork : kNodeWork;
     const std::uint32_t a = entry.node + 1, b = node.link;
     const double reach_a = reach2(a, query), reach_b = reach2(b, query);
     const bool a_first = reach_a <= reach_b;
-    const Entry near = a_first ? Entry{a, reach_a} : Entry{b, reach_b};
-    const Entry far = a_first ? Entry{b, reach_b} : Entry{a, reach_a};
-    if (far.reach2 >= 0.0) stack[size++] = far;
-    if (near.reach2 >= 0.0) stack[size++] = near;
+    stack.push(a_first ? Entry{b, reach_b} : Entry{a, reach_a});
+    stack.push(a_first ? Entry{a, reach_a} : Entry{b, reach_b});
   }
   return true;
 }

@@ -173,12 +173,14 @@ PatchExclusion exclude_pieces(const ContactContext& context, const PnPatch& patc
   result.possible = false;
   PossiblePlaces places;
   const int most_depth = is_thin(core) ? kPieceDepthThin : kPieceDepth;
+  int tests = 0;
   for (int looks = 1; size > 0; ++looks) {
     const PatchPiece& piece = stack[--size];
     // More than the least margin of the others is for nothing, and any is, where one may hold a contact.
     const double enough = places.any() ? 0.0 : std::min(enough_m, result.margin_m);
     const bool last = piece.depth >= most_depth || looks >= kPieces;
     const PieceLook look = look_at_piece(piece, core, bound, enough, last);
+    tests += 1 + look.proof.tests;
     const double wanted = std::min(kPieceShare * enough_m, enough);
     const bool unknown = look.proof.possible ? !look.clear : look.curved && look.proof.margin_m < wanted;
     if (unknown && !last) {
@@ -193,6 +195,7 @@ PatchExclusion exclude_pieces(const ContactContext& context, const PnPatch& patc
                look.curved ? piece.at(1.0 / 3.0, 1.0 / 3.0) : piece.at(look.proof.u, look.proof.v));
   }
   if (places.any()) result = places.likeliest(bound.rank_m);
+  result.tests = tests;
   return result;
 }
 
@@ -229,11 +232,13 @@ PatchExclusion exclude_by_core(ContactContext& context, const FingerCore& core, 
   if (!(features.margin_m > 0.0)) {
     PatchExclusion nothing = no_proof(context, core, t);
     nothing.feature = features.unproved;
+    nothing.tests = static_cast<int>(features.asked_count);
     return nothing;
   }
   PatchExclusion proof = exclude_face_by_core(context, core, t, bound, enough_m);
   if (!proof.possible && proof.margin_m > 0.0) remember(memory, features);
   proof.margin_m = std::min(proof.margin_m, features.margin_m);
+  proof.tests += static_cast<int>(features.asked_count);
   return proof;
 }
 

@@ -347,6 +347,7 @@ void bisect_parts(const Part& whole, const Ground& ground, double enough_m, cons
     result.margin_m = 0.0;
   };
   for (int tests = 0; size > 0; ++tests) {
+    ++result.tests;
     const Part& part = stack[--size];
     if constexpr (!Slack::kNone) {
       if (part.in_vain(slack)) return give_up();
@@ -512,6 +513,7 @@ static PatchExclusion exclude(const PnPatch& patch, const Factors& factors, doub
       return result;
     }
   }
+  result.tests = 1;
   Part whole;
   whole.f.fill(Vec2(0.0));
   whole.corner = {Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(0.0, 1.0)};

@@ -32,6 +32,7 @@ struct PatchExclusion {
   static constexpr std::uint64_t kNoFeature = ~std::uint64_t{0};
   std::uint64_t feature = kNoFeature;
   bool unsure = false;  ///< besides that contact there may be others, of which nothing is known
+  int tests = 0;        ///< of the whole and of parts of it, that it took
 
   /// A stable contact may be there.
   void hold(const Vec2& uv) {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "core/base/built_once.h"
+#include "core/contact/clearance.h"
 #include "core/contact/prove/contact_hierarchy.h"
 #include "core/contact/triangle_clusters.h"
 
@@ -25,7 +26,14 @@ class LateHierarchy {
 
   /// As ContactHierarchy::visit.
   template <class Visit>
-  void visit(ContactQuery query, Visit visit) const;
+  void visit(ContactQuery query, Visit visit) const {
+    VisitPlace from;
+    visit_from(from, query, visit);
+  }
+  /// The same from a place on. False where the query was spent before the end: then that is where to go on, with a
+  /// query about the same centre.
+  template <class Visit>
+  bool visit_from(VisitPlace& from, ContactQuery& query, Visit& visit) const;
 
   std::size_t part_count() const { return clusters_ ? clusters_->count() : 1; }
   std::size_t built_count() const;
@@ -63,7 +71,7 @@ class LateHierarchy {
   /// asked when the search comes to it, by bounds that may have shrunk.
   bool rules_out_all(std::uint32_t node, const ContactQuery& query) const;
   template <class Visit>
-  bool visit_part(std::size_t number, ContactQuery& query, Visit& visit) const;
+  bool visit_part(std::size_t number, ContactQuery& query, Visit& visit, std::uint32_t& from) const;
   /// As of a node of the hierarchy whose normals are not known.
   static double reach2(const Vec3& low, const Vec3& high, const ContactQuery& query);
 
@@ -84,11 +92,12 @@ inline double LateHierarchy::reach2(const Vec3& low, const Vec3& high, const Con
 }
 
 template <class Visit>
-bool LateHierarchy::visit_part(std::size_t number, ContactQuery& query, Visit& visit) const {
+bool LateHierarchy::visit_part(std::size_t number, ContactQuery& query, Visit& visit, std::uint32_t& from) const {
   const OutlineSlot& slot = slot_of(number);
   if (slot.filled() && slot.outline.rules_out(query)) return true;
   const ContactHierarchy* here = part(number);
-  return here && (here->rules_out(query) || here->visit_on(query, visit));
+  if (!here) return false;
+  return here->rules_out(query) || (!query.is_spent() && here->visit_on(query, visit, from));
 }
 
 inline bool LateHierarchy::rules_out_all(std::uint32_t node, const ContactQuery& query) const {
@@ -104,21 +113,27 @@ inline bool LateHierarchy::rules_out_all(std::uint32_t node, const ContactQuery&
   return slot.outline.rules_out(query);
 }
 
+// Only what is done within parts counts as work: what is done before depends on what is built.
 template <class Visit>
-void LateHierarchy::visit(ContactQuery query, Visit visit) const {
-  if (!clusters_) {
-    whole_->visit_on(query, visit);
-    return;
-  }
-  clusters_->tree().visit_nodes(
-      [&](std::uint32_t node, const Vec3& low, const Vec3& high) {
-        return rules_out_all(node, query) ? -1.0 : reach2(low, high, query);
-      },
-      [&] {
-        const double farthest = std::max(query.nearest_m, query.inside_m);
-        return farthest * farthest;
-      },
-      [&](std::uint32_t cluster) { return visit_part(cluster, query, visit); });
+bool LateHierarchy::visit_from(VisitPlace& from, ContactQuery& query, Visit& visit) const {
+  if (!clusters_) return whole_->visit_on(query, visit, from.node) || !query.is_spent();
+  const BoxTree::Start start{from.part, query.centre};
+  return clusters_->tree().visit_from(
+             start,
+             [&](std::uint32_t node, const Vec3& low, const Vec3& high) {
+               return rules_out_all(node, query) ? -1.0 : reach2(low, high, query);
+             },
+             [&] {
+               const double farthest = std::max(query.nearest_m, query.inside_m);
+               return farthest * farthest;
+             },
+             [&](std::uint32_t cluster) {
+               const bool goes_on = visit_part(cluster, query, visit, from.node);
+               if (goes_on) from.node = 0;
+               return goes_on;
+             },
+             &from.part) ||
+         !query.is_spent();
 }
 
 }  // namespace tangent

@@ -10,6 +10,7 @@
 #include "core/contact/prove/triangle_proof.h"
 #include "core/contact/search/beyond_fold.h"
 #include "core/contact/search/height_change.h"
+#include "core/contact/search/search_work.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +50,7 @@ struct Look {
 class RivalSearch {
  public:
   RivalSearch(ContactContext& context, const SearchStructures& search, const IterationResult& tracked,
-              const RivalQuestion& question, double closing, float ahead, bool any_turn)
+              const RivalQuestion& question, double closing, float ahead, bool any_turn, int work = 0)
       : search_(search),
         tracked_(tracked),
         touched_(question.touched),
@@ -64,6 +65,9 @@ class RivalSearch {
         settings_(robust(context.settings)),
         tracked_rank_m_(contact_rank(context.finger, tracked.contact)),
         steady_(settings_.normal_form == NormalForm::bernstein),
+        work_(work),
+        most_work_(tick_work(context.late_m, context.hystereses_m(kMostLate))),
+        cost_(is_round(context.finger) ? SearchWork::of_round() : SearchWork::of_core()),
         context_{context.cache, settings_, context.finger,  context.pose, context.origin,
                  context.trace, 0,         context.moved_m, context.moved} {
     if (!is_round(context.finger)) {
@@ -78,44 +82,31 @@ class RivalSearch {
       for (const TouchedContact& c : touched_->all()) remember(c.plane, c.contact);
   }
 
+  int work() const { return work_; }
+  /// A rival is known already.
+  void is_deeper_than(const IterationResult& rival) { deepest_ = contact_rank(context_.finger, rival.contact); }
+
   /// Every triangle that could hold a rival.
   void everywhere(RivalResult& result) {
-    Clearance& clearance = result.clearance;
-    clearance.margin_m = margin_m_;
-    clearance.any_turn = any_turn_;
-    const Vec3 ahead = lead();
-    int patience = kDearLooks;
-    ContactQuery all = query(margin_m_);
-    set_ahead(all, ahead, 1.0);
-    search_.hierarchy.visit(all, [&](std::uint32_t t, ContactQuery& q) {
-      const PartOfTriangle part{t, q.part};
-      if (dear_looks_ >= patience && clearance.margin_m > least_m_) {  // rather again soon than all this way now
-        patience += kDearLooks;
-        narrow_ahead(clearance, std::max(least_m_, 0.5 * clearance.margin_m), q, ahead);
-      }
-      const double way = clearance.margin_m;
-      const Look look = q.here_m < q.margin_m ? look_at_steady(part, way, result) : look_at(part, way, result);
-      const double margin = look.watch ? watch(clearance, part, look) : look.margin_m;
-      if (margin < way) narrow_ahead(clearance, margin, q, ahead);
-      return solves_ < kMaxSolves;
-    });
-    const double off = std::sqrt(glm::dot(ahead, ahead)), share = clearance.margin_m / margin_m_;
-    clearance.ahead_centre = context_.pose.position + share * ahead;
-    clearance.ahead_m = share * (margin_m_ - off) * (1.0 - 1e-6);
-    clearance.ahead_height_m = bound_m_ + share * ((closing_ - 1.0) * off + closing_ * (margin_m_ - off));
-    clearance.height_m = closing_ > 1.0 ? kForever : bound_m_;
-    clearance.ahead = adapted(clearance);
-    if (solves_ >= kMaxSolves) clearance.margin_m = 0.0;
-    set_free(clearance);
+    result.clearance.any_turn = any_turn_;
+    go_on({}, lead(), result);
+  }
+
+  /// The rest of a search that is under way, of which the clearance tells.
+  void go_on(RivalResult& result) {
+    const Clearance& begun = result.clearance;
+    go_on(begun.next, begun.ahead_centre - begun.centre, result);
+    result.clearance.ahead = std::max(kLeastAhead, 0.5f * ahead_);
   }
 
   /// Only the watched triangles whose time has come; `result.clearance` counts from the present pose.
   void once_more(const Gone& gone, RivalResult& result) {
     Clearance& clearance = result.clearance;
-    std::uint32_t kept = 0;
-    std::uint32_t passed_count = 0;
+    std::uint32_t kept = 0, passed_count = 0, at = 0;
     std::array<std::uint32_t, Clearance::kWatched> passed;  // a contact may have gone on from there to steady ground
-    for (const WatchedTriangle& watched : clearance.on_watch()) {
+    const std::uint32_t count = clearance.watched_count;
+    for (; at < count && work_ < most_work_; ++at) {
+      const WatchedTriangle watched = clearance.watched[at];
       if (watched.margin_m > 0.0f) {
         clearance.watched[kept++] = watched;
         continue;
@@ -129,12 +120,63 @@ class RivalSearch {
       if (!look.watch) clearance.margin_m = std::min(clearance.margin_m, look.margin_m);
       if (look.watch && look.margin_m < clearance.margin_m) clearance.watched[kept++] = watched_triangle(part, look);
     }
-    clearance.watched_count = kept & 0xFFFFu;
+    put_off(kept, at, result);
     if (steady_ && passed_count > 0) look_beside(std::span(passed).first(passed_count), result);
     set_free(clearance);
   }
 
  private:
+  void go_on(const VisitPlace& from, const Vec3& ahead, RivalResult& result) {
+    Clearance& clearance = result.clearance;
+    clearance.margin_m = margin_m_;
+    clearance.next = from;
+    int patience = kDearLooks;
+    ContactQuery all = query(margin_m_);
+    all.work = work_;
+    all.most_work = most_work_;
+    set_ahead(all, ahead, 1.0);
+    const auto visit = [&](std::uint32_t t, ContactQuery& q) {
+      const int before = work_;
+      const PartOfTriangle part{t, q.part};
+      if (dear_looks_ >= patience && clearance.margin_m > least_m_) {  // rather again soon than all this way now
+        patience += kDearLooks;
+        narrow_ahead(clearance, std::max(least_m_, 0.5 * clearance.margin_m), q, ahead);
+      }
+      const double way = clearance.margin_m;
+      const Look look = q.here_m < q.margin_m ? look_at_steady(part, way, result) : look_at(part, way, result);
+      const double margin = look.watch ? watch(clearance, part, look) : look.margin_m;
+      if (margin < way) narrow_ahead(clearance, margin, q, ahead);
+      q.work += work_ - before;
+      return true;
+    };
+    clearance.under_way = !search_.hierarchy.visit_from(clearance.next, all, visit);
+    work_ = all.work;
+    result.searching = clearance.under_way != 0;
+    const double off = std::sqrt(glm::dot(ahead, ahead)), share = clearance.margin_m / margin_m_;
+    clearance.ahead_centre = context_.pose.position + share * ahead;
+    clearance.height_m = closing_ > 1.0 ? kForever : bound_m_;
+    if (clearance.under_way) {
+      clearance.ahead_height_m = bound_m_;
+      clearance.free_m = -1.0;
+      return;
+    }
+    clearance.ahead_m = share * (margin_m_ - off) * (1.0 - 1e-6);
+    clearance.ahead_height_m = bound_m_ + share * ((closing_ - 1.0) * off + closing_ * (margin_m_ - off));
+    clearance.ahead = adapted(clearance);
+    set_free(clearance);
+  }
+
+  /// Of the watched triangles the first `kept` have been looked at, those from `from` on not: they come first next.
+  static void put_off(std::uint32_t kept, std::uint32_t from, RivalResult& result) {
+    Clearance& clearance = result.clearance;
+    const auto first = clearance.watched.begin();
+    const auto rest = std::copy(first + from, first + clearance.watched_count, first + kept);
+    const auto due = [](const WatchedTriangle& watched) { return !(watched.margin_m > 0.0f); };
+    result.searching = std::any_of(first + kept, rest, due);
+    std::rotate(first, first + kept, rest);
+    clearance.watched_count = static_cast<std::uint32_t>(rest - first) & 0xFFFFu;
+  }
+
   /// Further ahead where that was cheap and got as far as was asked for, less far where it was dear.
   float adapted(const Clearance& clearance) const {
     if (dear_looks_ > kDearLooks) return std::max(kLeastAhead, 0.5f * ahead_);
@@ -186,6 +228,7 @@ class RivalSearch {
   /// Whether a triangle leads to a known contact. Ground under a finger that is not round folds first at the height of
   /// the flattest side that it turns to on the way there, and while it goes as far as is asked.
   bool leads_to(std::size_t i, std::uint32_t t, double margin_m) {
+    work_ += cost_.slope;
     KnownContact known = known_[i];
     if (core_ && known.height_m >= 0.0) {
       const CoreSupport support = core_->support(known.normal);
@@ -290,10 +333,12 @@ class RivalSearch {
       if (features > 0.0) return {features, false, true};
     }
     ++dear_looks_;
+    work_ += cost_.look;
     for (std::size_t i = 0; i < known_count_ && !is_side(part.part) && part.part != SearchPart::region; ++i)
       if (leads_to(i, t, std::min(enough_m, slope_m_))) return own_slope(enough_m);
     if (enough_m > 0.0 && ahead_m_ > 0.0 && part.part == SearchPart::whole && excludes_ahead(t)) return {};
     const PatchExclusion proof = exclude_part(context_, part, up_to, enough_m, &features_);
+    work_ += cost_.test * proof.tests;
     if (!proof.possible && proof.margin_m > 0.0) return {proof.margin_m, false, true};
     if (!proof.possible) return {kUnresolvedMargin * slope_m_, true, true};
     if (proof.height_m != 0.0 && is_tracked(t, proof)) return own_slope(enough_m);
@@ -313,6 +358,7 @@ class RivalSearch {
   }
 
   bool excludes_ahead(std::uint32_t t) {
+    work_ += cost_.glance;
     const RankBound bound{ahead_bound_m_, closing_};
     if (core_) return core_excludes_at_a_glance(context_, *core_ahead_, t, bound, ahead_m_, &features_ahead_);
     ContactContext there{context_.cache, settings_, context_.finger, ahead_pose_, context_.origin};
@@ -338,12 +384,19 @@ class RivalSearch {
     }
     if (beside.region.empty()) return;
     beside.steady_only = true;
-    search_.hierarchy.visit(beside, [&](std::uint32_t other, ContactQuery& q) {
+    beside.work = work_;
+    beside.most_work = 2 * most_work_;
+    VisitPlace from;
+    const auto visit = [&](std::uint32_t other, ContactQuery& q) {
+      const int before = work_;
       const Look look = look_at_steady({other, q.part}, q.margin_m, result);
       if (look.margin_m < clearance.margin_m) narrow(clearance, look.margin_m, q);
-      return solves_ < kMaxSolves;
-    });
-    if (solves_ >= kMaxSolves) clearance.margin_m = 0.0;
+      q.work += work_ - before;
+      return true;
+    };
+    if (search_.hierarchy.visit_from(from, beside, visit)) return;
+    clearance.margin_m = 0.0;  // the next tick looks everywhere
+    result.searching = true;
   }
 
   bool meets_steady_ground(std::uint32_t t, const ContactQuery& q) {
@@ -445,6 +498,13 @@ class RivalSearch {
   }
 
   Look solve(const PartOfTriangle& part, const PatchExclusion& proof, double enough_m, RivalResult& result) {
+    const int before = result.evaluations;
+    const Look look = solve_from(part, proof, enough_m, result);
+    work_ += cost_.evaluation * (result.evaluations - before);
+    return look;
+  }
+
+  Look solve_from(const PartOfTriangle& part, const PatchExclusion& proof, double enough_m, RivalResult& result) {
     context_.seed = static_cast<std::uint8_t>(std::min(++solves_, 255));
     const SurfacePlace start = start_on(context_, part, proof);
     IterationResult r;
@@ -520,7 +580,9 @@ class RivalSearch {
   SolverSettings settings_;
   double tracked_rank_m_;
   bool tracked_is_even_ = false;
-  bool steady_;                                  ///< contacts are followed over steady ground
+  bool steady_;  ///< contacts are followed over steady ground
+  int work_, most_work_;  ///< of this tick, so far and at most
+  SearchWork cost_;
   std::optional<FingerCore> core_, core_ahead_;  ///< of a finger that is not round; in the middle of the look-ahead
   ContactContext context_;
   HeightChange change_;    ///< of the tracked contact
@@ -534,6 +596,70 @@ class RivalSearch {
   int dear_looks_ = 0;  ///< those that took more than a glance
 };
 
+/// A search in the tick's context, from the pose that it began at.
+struct BegunSearch {
+  const Clearance& begun;
+  FingerPose pose{begun.centre, begun.orientation};
+  ContactContext context;
+  IterationResult tracked;
+
+  BegunSearch(const ContactContext& now, const Clearance& from)
+      : begun(from), context{now.cache, now.settings, now.finger, pose,          now.origin, nullptr,
+                             0,         now.moved_m,  now.moved,  kMostCrossings} {}
+  BegunSearch(const BegunSearch&) = delete;
+  BegunSearch& operator=(const BegunSearch&) = delete;
+
+  /// Leads the tracked contact back there. False: it is another one there.
+  bool track(const TrackedPlane& plane) {
+    iterate_kept(context, plane, false, kTrackBudget, tracked);
+    return tracked.converged() && glm::dot(tracked.plane.normal, plane.normal) >= kJumpCosine;
+  }
+
+  RivalResult go_on(const SearchStructures& search, const TouchedContacts* touched, int& work) {
+    RivalResult found;
+    found.clearance = begun;
+    const RivalQuestion question{begun.ahead_height_m, begun.margin_m, false, touched};
+    const double closing = begun.height_m < kForever ? 1.0 : 2.0;
+    RivalSearch rest(context, search, tracked, question, closing, begun.ahead, begun.any_turn != 0);
+    rest.go_on(found);
+    work = rest.work();
+    return found;
+  }
+};
+
+/// Leads to the tick's pose what a search found from another.
+void lead_here(const ContactContext& context, const RivalResult& found, double bound_m, RivalResult& result) {
+  ContactContext here = context;
+  here.trace = nullptr;
+  const auto lead = [&](const TrackedPlane& plane, IterationResult& r) {
+    iterate_kept(here, plane, false, kTrackBudget, r);
+    result.evaluations += r.evaluations;
+    return r.converged() && contact_rank(context.finger, r.contact) < bound_m;
+  };
+  result.deeper = found.deeper && lead(found.best.plane, result.best);
+  for (const TouchedContact& c : found.touched.all()) {
+    IterationResult r;
+    if (lead(c.plane, r) && pushes_with_others(r.contact))
+      result.touched.add({r.plane, r.contact}, kMergedPlaces * context.settings.tolerance_m);
+  }
+}
+
+/// Goes on with a search that is under way. False: it is of no use any more.
+bool go_on(ContactContext& context, const SearchStructures& search, const IterationResult& tracked,
+           const RivalQuestion& question, const Clearance& begun, const Gone& gone, RivalResult& result, int& work) {
+  if (gone.now_m > begun.margin_m) return false;
+  BegunSearch there(context, begun);
+  const bool same = there.track(tracked.plane);
+  result.evaluations += there.tracked.evaluations;
+  if (!same) return false;
+  const RivalResult found = there.go_on(search, question.touched, work);
+  result.evaluations += found.evaluations;
+  result.clearance = found.clearance;
+  result.searching = found.searching;
+  lead_here(context, found, question.bound_m, result);
+  return true;
+}
+
 }  // namespace
 
 double look_ahead_m(const ContactContext& context, double rank, double ahead) {
@@ -544,19 +670,28 @@ double look_ahead_m(const ContactContext& context, double rank, double ahead) {
 
 RivalResult find_rival(ContactContext& context, const SearchStructures& search, const IterationResult& tracked,
                        const RivalQuestion& question, const Clearance& known, const Gone& gone) {
-  const bool everything = is_beyond(known, context.pose, gone.now_m, question.bound_m);
-  // A finger that has not turned since the last search of everything, as most devices measure none, is taken not to.
-  const bool any_turn = known.orientation != context.pose.orientation || (!everything && known.any_turn != 0);
-  // Proofs about the watched triangles have to hold as far as that of all others.
-  const bool stays = everything ? question.bound_stays : known.height_m < kForever;
-  RivalSearch rivals(context, search, tracked, question, stays ? 1.0 : 2.0, known.ahead, any_turn);
   RivalResult result;
+  Clearance last = known;
+  int work = 0;
+  if (known.under_way && go_on(context, search, tracked, question, known, gone, result, work)) {
+    if (result.searching || !deeper_possible(result.clearance, context.pose, gone.now_m, question.bound_m))
+      return result;
+    last = result.clearance;
+  }
+  const bool everything = last.under_way || is_beyond(last, context.pose, gone.now_m, question.bound_m);
+  // A finger that has not turned since the last search of everything, as most devices measure none, is taken not to.
+  const bool any_turn = last.orientation != context.pose.orientation || (!everything && last.any_turn != 0);
+  // Proofs about the watched triangles have to hold as far as that of all others.
+  const bool stays = everything ? question.bound_stays : last.height_m < kForever;
+  RivalSearch rivals(context, search, tracked, question, stays ? 1.0 : 2.0, last.ahead, any_turn, work);
+  if (result.deeper) rivals.is_deeper_than(result.best);
   if (everything) {
+    result.clearance = Clearance{};
     result.clearance.centre = context.pose.position;
     result.clearance.orientation = context.pose.orientation;
     rivals.everywhere(result);
   } else {
-    result.clearance = known;
+    result.clearance = last;
     recentre(result.clearance, context.pose, gone.now_m);
     rivals.once_more(gone, result);
   }

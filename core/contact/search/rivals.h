@@ -3,6 +3,9 @@
 // A search looks at every triangle that could hold one and notes how far the finger may go until it could: for the
 // few triangles that are soonest one by one, for all others together. So most ticks ask nothing, and most of
 // those that ask look at a triangle or two.
+//
+// A tick does so much of a search (search_work.h). One that takes more goes on in the next ticks, from the pose that it
+// began at: its margins count from there. It looks at what is nearest first.
 #pragma once
 
 #include "core/contact/clearance.h"
@@ -22,6 +25,7 @@ struct RivalResult {
   int evaluations = 0;
   TouchedContacts touched;  ///< new ones below the bound, where they were asked for
   Clearance clearance;      ///< until when nothing needs to be looked at again
+  bool searching = false;   ///< not everything has been looked at that had to be: the next ticks go on
 };
 
 /// What a search is asked.

@@ -23,12 +23,12 @@ def _axes(name, unit, offset):
 
 INPUT = _record([("size", "<u4", 0), ("has_velocity", "<u4", 4), ("t_s", "<f8", 8), ("position_m", ("<f8", 3), 16),
                  ("orientation_wxyz", ("<f8", 4), 40), ("velocity_m_per_s", ("<f8", 3), 72), 96])
-SIZE = np.dtype({"names": ["size"], "formats": ["<u4"], "offsets": [0], "itemsize": 184})
+SIZE = np.dtype({"names": ["size"], "formats": ["<u4"], "offsets": [0], "itemsize": 192})
 TICKS = _record([("tick", "<u8", 8), ("t_s", "<f8", 16), ("status", "<i4", 4), ("triangle", "<i4", 24),
                  ("u", "<f8", 32), ("v", "<f8", 40), *_axes("contact", "_m", 48), *_axes("normal", "", 72),
                  ("penetration_m", "<f8", 96), *_axes("force", "_n", 104), ("cld_m", "<f8", 128),
                  ("error_m", "<f8", 136), ("iterations", "<i4", 144), ("triangle_changes", "<i4", 148),
-                 ("event", "<i4", 28), *_axes("decided_force", "_n", 152), ("decided_cld_m", "<f8", 176), 184])
+                 ("event", "<i4", 28), *_axes("decided_force", "_n", 152), ("decided_cld_m", "<f8", 176), ("searching", "<i4", 184), 192])
 """dtype of what `solve` returns: the columns of ticks.csv, without the time a tick took. SI, world frame; `status` and
 `event` index STATUSES and EVENTS; `triangle` is -1 where nothing is tracked."""
 

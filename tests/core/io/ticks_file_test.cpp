@@ -42,7 +42,7 @@ TEST_CASE("the columns of ticks.csv are the ones that were promised") {
   CHECK(kTicksHeader ==
         "tick,t_s,status,triangle,u,v,contact_x_m,contact_y_m,contact_z_m,normal_x,normal_y,normal_z,penetration_m,"
         "force_x_n,force_y_n,force_z_n,cld_m,error_m,iterations,triangle_changes,event,solve_ns,"
-        "decided_force_x_n,decided_force_y_n,decided_force_z_n,decided_cld_m");
+        "decided_force_x_n,decided_force_y_n,decided_force_z_n,decided_cld_m,searching");
 }
 
 TEST_CASE("every double of a tick reads back with the same bits") {

@@ -76,7 +76,7 @@ struct Wanderer {
 namespace {
 
 struct Found {
-  int ticks = 0, switches = 0, shallower = 0, unentered = 0;
+  int ticks = 0, switches = 0, shallower = 0, unentered = 0, searching = 0, late = 0;
 };
 
 /// Steps over 24 grounds; at every tick the contact is compared with what a search from nothing finds.
@@ -99,6 +99,7 @@ Found wander_over_random_grounds(std::uint64_t seed, int grounds) {
       finger.go(tracked, random);
       found.switches += tracked.event == TickEvent::switched;
       ++found.ticks;
+      found.searching += tracked.searching;
       // One that was come upon from behind does not push, and no other place is compared with it (decide.h).
       if (state.unentered) continue;
       TickState fresh;
@@ -107,6 +108,10 @@ Found wander_over_random_grounds(std::uint64_t seed, int grounds) {
       if (behind <= 2.0 * kHeightGuess * std::max(radius, 1e-3) + preset.solver.tolerance_m) continue;
       // At the ground's rim the same place may be seen from before it and from behind.
       if (glm::distance(cold.contact, tracked.contact) < kMergedPlaces * preset.solver.tolerance_m) continue;
+      if (tracked.searching) {
+        ++found.late;
+        continue;
+      }
       const FingerStep step{glm::distance(input.finger.position, before), preset.solver.switch_hysteresis_m};
       const bool counts = was_entered(step, cold.penetration_m, tracked.penetration_m);
       found.shallower += counts;
@@ -126,10 +131,13 @@ TEST_CASE("on random ground the tracked contact is the deepest place, as a searc
   for (const std::uint64_t seed : {6, 7, 8, 10}) {
     const Found found = wander_over_random_grounds(seed, grounds);
     MESSAGE("seed " << seed << ": " << found.switches << " switches in " << found.ticks << " ticks, " << found.shallower
-                    << " shallower than a search from nothing, " << found.unentered << " than what was never entered");
+                    << " shallower than a search from nothing, " << found.unentered << " than what was never entered; "
+                    << found.searching << " searching, " << found.late << " of them shallower");
     CHECK(found.switches > grounds);
     CHECK(found.shallower == 0);
     CHECK(found.unentered <= 8);
+    CHECK(found.searching * 20 <= found.ticks);
+    CHECK(found.late * 500 <= found.ticks);
   }
 }
 

@@ -1,0 +1,203 @@
+// A search that takes more than a tick's work goes on in the next ticks, and ends with the same knowledge.
+#include "core/contact/decide/decide.h"
+#include "core/contact/prove/late_hierarchy.h"
+#include "core/contact/search/search_work.h"
+#include "tests/core/scenes.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+using namespace tangent;
+using namespace tangent::test;
+
+namespace {
+
+ContactQuery query_at(const Vec3& centre) {
+  ContactQuery query;
+  query.centre = centre;
+  query.nearest_m = 0.030;
+  query.inside_m = 0.010;
+  query.margin_m = 0.002;
+  return query;
+}
+
+/// The triangles that a visit comes to, while its bounds shrink by that ratio at each.
+std::vector<std::uint32_t> visited_in_parts(const LateHierarchy& hierarchy, ContactQuery query, double shrinks,
+                                            int work, int& parts) {
+  std::vector<std::uint32_t> triangles;
+  const auto visit = [&](std::uint32_t t, ContactQuery& q) {
+    triangles.push_back(t);
+    q.nearest_m *= shrinks;
+    return true;
+  };
+  VisitPlace place;
+  for (parts = 1;; ++parts) {
+    query.work = 0;
+    query.most_work = work;
+    if (hierarchy.visit_from(place, query, visit)) return triangles;
+  }
+}
+
+/// A ball with knobs all over, each a few triangles wide.
+PolygonMesh knobby_ball(int level) {
+  PolygonMesh body = make_icosphere(0.040, level);
+  for (Vec3& p : body.positions)
+    p *= 1.0 + 0.02 * std::sin(900.0 * p.x) * std::sin(700.0 * p.y) * std::sin(800.0 * p.z);
+  body.normals.clear();
+  body.corner_normal.clear();
+  return body;
+}
+
+/// The finger goes round the ball in a spiral, its centre so far from the ball's.
+TickInput round_the_ball(int tick, double step_m, double out_m) {
+  const double turn = step_m / out_m * tick, lift = 0.9 * std::sin(0.13 * turn);
+  const Vec3 at = out_m * Vec3(std::cos(lift) * std::cos(turn), std::cos(lift) * std::sin(turn), std::sin(lift));
+  return at_position(1e-3 * tick, at);
+}
+
+struct Spread {
+  int ticks = 0, searching = 0, longest = 0, behind = 0, behind_in_time = 0, evaluations = 0;
+  double late_m = 0.0;
+};
+
+Spread go_round(const ScenePtr& scene, const Preset& preset, int ticks, double step_m, double out_m) {
+  Stepper tracking(scene), searching(scene);
+  TickState state;
+  Spread spread;
+  int run = 0;
+  for (int i = 0; i < ticks; ++i) {
+    const TickInput input = round_the_ball(i, step_m, out_m);
+    const TickOutput out = tracking.step(preset, input, state);
+    ++spread.ticks;
+    spread.searching += out.searching;
+    run = out.searching ? run + 1 : 0;
+    spread.longest = std::max(spread.longest, run);
+    spread.late_m = std::max(spread.late_m, double{state.late_m});
+    if (i > 0 && out.event == TickEvent::none) spread.evaluations = std::max(spread.evaluations, out.iterations);
+    TickState fresh;
+    const TickOutput cold = searching.step(preset, input, fresh);
+    const double room = preset.solver.switch_hysteresis_m + preset.solver.tolerance_m;
+    if (state.unentered || !(cold.penetration_m - out.penetration_m > room)) continue;
+    ++(out.searching ? spread.behind : spread.behind_in_time);
+  }
+  return spread;
+}
+
+Preset deepest_preset(const Finger& finger) {
+  Preset preset = sphere_preset(finger.radius_m, Method::robust);
+  preset.finger = finger;
+  preset.force.contacts = ForceContacts::deepest;
+  return preset;
+}
+
+}  // namespace
+
+TEST_CASE("a visit that breaks off and goes on comes to the same triangles in the same order, however often") {
+  Random random(21);
+  const auto scene = scene_of(knobby_ball(4));
+  const TriangleClusters clusters = TriangleClusters::build(scene->mesh());
+  const LateHierarchy whole(scene->mesh(), nullptr), parted(scene->mesh(), &clusters);
+  int broken = 0, different = 0, more = 0, found = 0;
+  for (int i = 0; i < rounds(60); ++i) {
+    const ContactQuery query = query_at(random.in(0.01, 0.06) * random.direction());
+    const int work = 60 + static_cast<int>(random.below(4000));
+    for (const LateHierarchy* hierarchy : {&whole, &parted}) {
+      const auto visited = [&](double shrinks, int most) {
+        int parts = 0;
+        const auto triangles = visited_in_parts(*hierarchy, query, shrinks, most, parts);
+        broken += parts > 2;
+        return triangles;
+      };
+      constexpr int kAll = std::numeric_limits<int>::max();
+      found += !visited(1.0, kAll).empty();
+      different += visited(1.0, work) != visited(1.0, kAll);
+      // What bounds that have shrunk rule out is asked anew where it goes on.
+      const auto all = visited(0.9999, kAll), some = visited(0.9999, work);
+      more += !std::includes(all.begin(), all.end(), some.begin(), some.end(), [&](std::uint32_t a, std::uint32_t b) {
+        const auto at = [&](std::uint32_t t) { return std::find(all.begin(), all.end(), t); };
+        return at(a) < at(b);
+      });
+    }
+  }
+  CHECK(different == 0);
+  CHECK(more == 0);
+  CHECK(found >= rounds(40));
+  CHECK(broken >= rounds(40));
+}
+
+TEST_CASE("a search over several ticks says so, ends, and a tick that does not search has the deepest place") {
+  const ScenePtr scene = scene_of(knobby_ball(5));
+  Finger ball{.shape = FingerShape::sphere, .radius_m = 0.020};
+  Finger ellipsoid{.shape = FingerShape::ellipsoid, .semi_axes_m = {0.020, 0.010, 0.008}};
+  for (const Finger& finger : {ball, ellipsoid}) {
+    CAPTURE(static_cast<int>(finger.shape));
+    const double out = 0.040 + (finger.shape == FingerShape::sphere ? 0.0195 : 0.0085);
+    const Spread spread = go_round(scene, deepest_preset(finger), rounds(1500), 5e-4, out);
+    MESSAGE(spread.searching << " of " << spread.ticks << " ticks searching, at most " << spread.longest
+                             << " in a row; behind in " << spread.behind << " of them, else in "
+                             << spread.behind_in_time << "; " << spread.evaluations << " evaluations at most");
+    CHECK(spread.searching > 0);
+    CHECK(spread.behind_in_time <= spread.ticks / 500);
+    CHECK(spread.behind <= spread.searching / 4);
+  }
+}
+
+TEST_CASE("a finger at the middle of a ball, where every triangle holds a contact, is searched for in parts") {
+  const ScenePtr scene = scene_of(make_icosphere(0.040, 5));
+  const Preset preset = deepest_preset({.shape = FingerShape::sphere, .radius_m = 0.045});
+  Stepper stepper(scene);
+  TickState state;
+  Random random(5);
+  int most = 0;
+  for (int i = 0; i < 200; ++i) {
+    const TickOutput out = stepper.step(preset, at_position(1e-3 * i, 1e-5 * random.direction()), state);
+    if (i > 0 && out.event == TickEvent::none) most = std::max(most, out.iterations);
+  }
+  const int allowed = static_cast<int>(kLateWork * kTickWork) / SearchWork::of_round().evaluation + 64;
+  CHECK(most <= allowed);
+}
+
+TEST_CASE("the state alone carries a search that is under way from one tick to the next") {
+  const ScenePtr scene = scene_of(knobby_ball(5));
+  const Preset preset = deepest_preset({.shape = FingerShape::sphere, .radius_m = 0.020});
+  Stepper one(scene);
+  TickState state;
+  int compared = 0, different = 0;
+  for (int i = 0; i < rounds(1500); ++i) {
+    const TickInput input = round_the_ball(i, 5e-4, 0.0595);
+    if (state.clearance.under_way && ++compared <= 40) {
+      Stepper another(scene);
+      TickState copy = state, mine = state;
+      const TickOutput a = another.step(preset, input, copy), b = one.step(preset, input, mine);
+      different += a.penetration_m != b.penetration_m || a.iterations != b.iterations || a.searching != b.searching ||
+                   copy.clearance.free_m != mine.clearance.free_m;
+    }
+    one.step(preset, input, state);
+  }
+  CHECK(compared > 0);
+  CHECK(different == 0);
+}
+
+TEST_CASE("what a late search finds was entered: the finger's way since then counts") {
+  const FingerStep in_time{1e-4, 2e-5, 0.0}, late{1e-4, 2e-5, 5e-4};
+  CHECK_FALSE(was_entered(in_time, 0.0010, 0.0));
+  CHECK(was_entered(late, 0.0010, 0.0));
+  CHECK_FALSE(was_entered(late, 0.0020, 0.0));
+  CHECK_FALSE(was_entered({1e-4, 2e-5, 1.0}, 0.0030, 0.0));
+}
+
+TEST_CASE("a place of another tree begins a visit anew") {
+  const auto scene = scene_of(make_icosphere(0.040, 3));
+  const LateHierarchy hierarchy(scene->mesh(), nullptr);
+  for (const std::uint32_t node : {std::uint32_t{7}, std::uint32_t{4000000000u}}) {
+    VisitPlace place{node, node};
+    ContactQuery query = query_at({0.05, 0.0, 0.0});
+    int seen = 0;
+    const auto visit = [&](std::uint32_t, ContactQuery&) { return ++seen, true; };
+    CHECK(hierarchy.visit_from(place, query, visit));
+  }
+}
