@@ -130,6 +130,9 @@ std::string solve_text(const SolveReport& report) {
                             to_string(preset.solver.method), report.interrupted ? ", interrupted" : "");
   text += "  status      " + counts_text(s, kTickStatuses) + "\n";
   text += "  events      " + counts_text(s, kTickEvents) + "\n";
+  if (s.searching() > 0)
+    text += format("  searching   %llu ticks whose search for deeper places went on at the next\n",
+                   (unsigned long long)s.searching());
   text += causes_text(report);
   text += "  iterations  " + iterations_text(s.iterations()) + "\n";
   text += "    no event  " + iterations_text(s.event_free_iterations()) + "\n";
@@ -166,6 +169,7 @@ Json solve_json(const SolveReport& report) {
       {"ticks", s.ticks()},
       {"statuses", counts_json(s, kTickStatuses)},
       {"events", counts_json(s, kTickEvents)},
+      {"searching", s.searching()},
       {"iterations", {{"all", to_json(s.iterations())}, {"event_free", to_json(s.event_free_iterations())}}},
       {"max_error_m", s.max_error_m()},
       {"roughness",

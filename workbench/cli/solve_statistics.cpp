@@ -14,6 +14,7 @@ void SolveStatistics::add(const Preset& preset, const TickInput& input, const Ti
   roughness_.add(preset, input, output);
   ++statuses_[static_cast<std::size_t>(output.status)];
   ++events_[static_cast<std::size_t>(output.event)];
+  searching_ += output.searching;
   iterations_.push_back(output.iterations);
   if (output.event == TickEvent::none) event_free_iterations_.push_back(output.iterations);
   solve_ns_.push_back(solve_ns);

@@ -20,6 +20,7 @@ class SolveStatistics {
   std::uint64_t ticks() const { return iterations_.size(); }
   std::uint64_t count(TickStatus status) const { return statuses_[static_cast<std::size_t>(status)]; }
   std::uint64_t count(TickEvent event) const { return events_[static_cast<std::size_t>(event)]; }
+  std::uint64_t searching() const { return searching_; }  ///< ticks whose search went on at the next
   double max_error_m() const { return max_error_m_; }  ///< of the converged ticks
   Distribution iterations() const { return distribution(iterations_); }
   /// Over the ticks whose event is `none`, that is, tracking only.
@@ -31,6 +32,7 @@ class SolveStatistics {
   std::array<std::uint64_t, kTickStatuses.size()> statuses_{};
   std::array<std::uint64_t, kTickEvents.size()> events_{};
   std::vector<double> iterations_, event_free_iterations_, solve_ns_;
+  std::uint64_t searching_ = 0;
   double max_error_m_ = 0.0;
   RoughnessCounter roughness_;
 };

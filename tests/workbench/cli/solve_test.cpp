@@ -87,7 +87,7 @@ TEST_CASE("every pose becomes a line, in order, converged, with the promised col
   const Rows rows = scene.ticks();
   REQUIRE(rows.size() == 201);
   for (std::size_t i = 1; i < rows.size(); ++i) {
-    REQUIRE(rows[i].size() == 26);
+    REQUIRE(rows[i].size() == 27);
     CHECK(rows[i][0] == std::to_string(i - 1));
     CHECK(rows[i][column("status")] == "face");
     CHECK(rows[i][column("event")] == (i == 1 ? "first" : "none"));
@@ -316,7 +316,7 @@ void interrupt_a_run(int signal) {
   const Rows rows = read_csv(ticks);
   REQUIRE(rows.size() > 1);
   CHECK(rows.size() < kPoses);
-  CHECK(rows.back().size() == 26);
+  CHECK(rows.back().size() == 27);
   const auto summary = nlohmann::json::parse(read_text(folder.file("summary.json")));
   CHECK(summary["interrupted"] == true);
   CHECK(summary["ticks"] == rows.size() - 1);
