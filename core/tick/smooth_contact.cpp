@@ -114,10 +114,15 @@ bool go_on_with_touched(ContactContext& context, TickState& state, DecidedContac
 }
 
 /// Where following failed.
-void start_anew(ContactContext& context, const SearchStructures& search, bool first, const TickState& state,
+void start_anew(ContactContext& context, const SearchStructures& search, bool first, TickState& state,
                 DecidedContact& decided) {
   const bool in_vain = !first && !found_before(state);  // not where there was no search at all, as in an unready tick
-  decide_start(seed_contact(context, search, state.plane, in_vain), state.plane, decided);
+  if (!in_vain) state.clearance = Clearance{};
+  const SeedResult seeded =
+      seed_contact(context, search, state.plane, in_vain, state.has_previous ? &state.clearance : nullptr);
+  decided.searching = seeded.searching;
+  decide_start(seeded, state.plane, decided);
+  if (decided.converged()) state.clearance = Clearance{};
 }
 
 /// A finger that has been put elsewhere starts at the deepest place there, unless that is the one that was followed.
@@ -125,7 +130,7 @@ void start_anew(ContactContext& context, const SearchStructures& search, bool fi
 bool start_after_leap(ContactContext& context, const SearchStructures& search, const TickState& state,
                       DecidedContact& decided) {
   if (!was_put_elsewhere(step_of(context)) || context.settings.method != Method::robust) return false;
-  const SeedResult seeded = seed_contact(context, search, state.plane, false);
+  const SeedResult seeded = seed_contact(context, search, state.plane);
   const double rank = contact_rank(context.finger, decided.contact.contact);
   const bool deeper = seeded.best.converged() &&
                       contact_rank(context.finger, seeded.best.contact) < takeover_bound_m(context.settings, rank);
@@ -171,11 +176,15 @@ static void find_and_watch(ContactContext& context, const SearchStructures& sear
       state.unentered = is_unentered(context, state, decided.contact);
     }
     if (!touched) return watch_others(context, search, state, decided);
-  } else if (state.clearance = Clearance{};
-             touched && !started && go_on_with_touched(context, state, decided, *touched)) {
+  } else if (touched && !started && go_on_with_touched(context, state, decided, *touched)) {
+    state.clearance = Clearance{};
     state.unentered = 0;
   } else {
-    if (!started) start_anew(context, search, first, state, decided);
+    if (started) {
+      state.clearance = Clearance{};
+    } else {
+      start_anew(context, search, first, state, decided);
+    }
     if (!decided.facing())  // there, nothing could be entered
       state.unentered = !first && is_new_unentered(context, state, decided.contact);
   }

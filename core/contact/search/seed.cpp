@@ -3,8 +3,10 @@
 #include "core/base/tolerances.h"
 #include "core/contact/contact_rank.h"
 #include "core/contact/follow/hollow.h"
+#include "core/contact/prove/clearance_check.h"
 #include "core/contact/prove/triangle_proof.h"
 #include "core/contact/search/beyond_fold.h"
+#include "core/contact/search/search_work.h"
 #include "core/finger/facing_normal.h"
 
 #include <algorithm>
@@ -89,6 +91,47 @@ double likely_rank(ContactContext& context, const SearchStructures& search, doub
   const auto n = context.cache.mesh().normals(hit.triangle);
   const Vec3 normal = (1.0 - hit.u - hit.v) * n[0] + hit.u * n[1] + hit.v * n[2];
   return glm::dot(centre - hit.point, normal) >= 0.0 ? further : context.finger.reach_m() + further;
+}
+
+/// A part of one search of everything, from the pose that it began at. What it finds there is led to the present pose.
+/// False: it goes on at the next tick.
+bool seed_in_parts(ContactContext& context, const SearchStructures& search, int work, Clearance& begun,
+                   Selection& selection) {
+  if (!begun.under_way || gone_m(begun, context.finger, context.pose) > context.hystereses_m(kMostLate)) {
+    begun = Clearance{};
+    begun.centre = context.pose.position;
+    begun.orientation = context.pose.orientation;
+  }
+  const FingerPose pose{begun.centre, begun.orientation};
+  ContactContext there{context.cache, context.settings, context.finger, pose, context.origin};
+  std::optional<FingerCore> core;
+  ContactQuery query;
+  query.centre = pose.position;
+  query.nearest_m = query.inside_m = std::numeric_limits<double>::max();
+  query.tilt_rad = context.finger.tilt_rad();
+  query.most_work = work;
+  if (!is_round(context.finger)) query.core = there.core = &core.emplace(context.finger, pose);
+  const SearchWork cost = is_round(context.finger) ? SearchWork::of_round() : SearchWork::of_core();
+  FeatureMemory features;
+  double rank = std::numeric_limits<double>::max();
+  const auto visit = [&](std::uint32_t t, ContactQuery& q) {
+    PartOfTriangle part{t, q.part};
+    const PatchExclusion proof = exclude_part(there, part, {rank}, 0.0, &features);
+    q.work += cost.look + cost.test * proof.tests;
+    if (proof.margin_m > 0.0) return true;
+    IterationResult then, now;
+    iterate(there, start_on(there, part, proof), seed_budget(context.finger), then);
+    q.work += cost.evaluation * then.evaluations;
+    selection.result.evaluations += then.evaluations;
+    if (!then.converged() || !(contact_rank(context.finger, then.contact) < rank)) return true;
+    iterate_kept(context, then.plane, false, kTrackBudget, now);
+    if (!selection.offer(context, now)) return true;
+    rank = contact_rank(context.finger, then.contact);
+    limit_query(q, context.finger, rank);
+    return true;
+  };
+  begun.under_way = !search.hierarchy.visit_from(begun.next, query, visit);
+  return !begun.under_way;
 }
 
 /// Contacts of a rank below `most`. What failed before is not tried again: it would start from the same place.
@@ -214,8 +257,8 @@ void face_the_finger(ContactContext& context, const SearchStructures& search, Se
 
 }  // namespace
 
-SeedResult seed_contact(ContactContext& context, const SearchStructures& search, const TrackedPlane& kept,
-                        bool in_vain) {
+SeedResult seed_contact(ContactContext& context, const SearchStructures& search, const TrackedPlane& kept, bool in_vain,
+                        Clearance* parts) {
   Selection selection;
   if (context.settings.method != Method::robust) {
     seed_by_distance(context, search, 1, known_radius(context, kept), context.settings.max_iterations, nullptr, false,
@@ -226,13 +269,22 @@ SeedResult seed_contact(ContactContext& context, const SearchStructures& search,
     FailedStarts failed;
     // A first tick, or one after a leap, may take its time.
     const bool in_motion = kept.feature != Feature::none && context.moved_m <= context.hystereses_m(kLeapOfFinger);
-    seed_by_hierarchy(context, search, most, failed, selection);
-    if (!(selection.group == 0 && selection.value < most) && most < kUnlimited)
-      seed_by_hierarchy(context, search, kUnlimited, failed, selection);
+    if (!in_vain) seed_by_hierarchy(context, search, most, failed, selection);
+    if (!(selection.group == 0 && selection.value < most)) {
+      if (parts && in_motion) {
+        constexpr int kFirstPart = 8;  // of a tick's work, in the one in which the contact was lost
+        const int work = in_vain ? kTickWork : kFirstPart * kTickWork;
+        selection.result.searching = !seed_in_parts(context, search, work, *parts, selection);
+        if (selection.result.searching) failed.break_off();
+      } else if (in_vain || most < kUnlimited) {
+        seed_by_hierarchy(context, search, kUnlimited, failed, selection);
+      }
+    }
     seed_in_hollow(context, search, known_radius(context, kept), selection);
     if (selection.group != 0 || implausible(context, search, selection.result.best, selection.value))
-      seed_by_distance(context, search, kSeeds, std::numeric_limits<double>::infinity(), seed_budget(context.finger),
-                       &failed, in_motion, selection);
+      seed_by_distance(context, search, in_vain && in_motion ? kSeeds / 4 : kSeeds,
+                       std::numeric_limits<double>::infinity(), seed_budget(context.finger), &failed, in_motion,
+                       selection);
     if (selection.group == 1 && !is_round(context.finger)) leave_unstable(context, selection);
     if (selection.group == 2 ||
         (selection.group == 0 && implausible(context, search, selection.result.best, selection.value)))

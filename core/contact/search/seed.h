@@ -1,6 +1,7 @@
 // Contacts found without the kept plane: the first one and lost ones.
 #pragma once
 
+#include "core/contact/clearance.h"
 #include "core/contact/follow/iterate.h"
 #include "core/contact/search/search_structures.h"
 
@@ -11,6 +12,7 @@ struct SeedResult {
   IterationResult best;  ///< that, or the seed with the smallest error. Of a place that faces the finger `plane` is the
                          ///< facing one; travel and error are those of the plane with the surface's own normal.
   int evaluations = 0;   ///< of all seeds together
+  bool searching = false;  ///< not all has been looked at yet: the next tick goes on
 };
 
 /// `paper` and `newton` start at the closest point of the nearest triangle and iterate to their limit.
@@ -20,8 +22,9 @@ struct SeedResult {
 /// of a finger that is not round as the place that faces it.
 /// `kept`: the plane that was tracked until now, if any; the nearest triangle is no further off than its triangle.
 /// `in_vain`: the last tick found no contact either, so that it saves time to look for one of any depth at once: the
-/// same contacts.
+/// same contacts. `parts`: where none is found near the raw mesh, a finger in motion is searched for in parts, a tick's
+/// work each (search_work.h), and this is the search that is under way; null: at once.
 SeedResult seed_contact(ContactContext& context, const SearchStructures& search, const TrackedPlane& kept,
-                        bool in_vain = false);
+                        bool in_vain = false, Clearance* parts = nullptr);
 
 }  // namespace tangent

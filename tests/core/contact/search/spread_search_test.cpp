@@ -161,6 +161,36 @@ TEST_CASE("a finger at the middle of a ball, where every triangle holds a contac
   CHECK(most <= allowed);
 }
 
+TEST_CASE("where rough ground offers no contact it is looked for in parts, and found again") {
+  Random random(3);
+  const ScenePtr scene = scene_of(height_field(0.04, 60, [&](double, double) { return random.in(-2e-3, 2e-3); }));
+  const Preset preset = deepest_preset({.shape = FingerShape::sphere, .radius_m = 0.002});
+  Stepper tracking(scene), searching(scene);
+  TickState state;
+  int facing = 0, parts = 0, most = 0, missed = 0;
+  bool last_too = false;
+  for (int i = 0; i < rounds(2000); ++i) {
+    const double t = 1e-3 * i;
+    const TickInput input = at_position(t, {0.025 * std::sin(3.1 * t), 0.025 * std::cos(2.3 * t), -0.5e-3});
+    const TickOutput out = tracking.step(preset, input, state);
+    const bool faces = out.status == TickStatus::facing;
+    if (faces && last_too) {
+      ++facing;
+      parts += out.searching;
+      most = std::max(most, out.iterations);
+      TickState fresh;
+      missed += searching.step(preset, input, fresh).status != TickStatus::facing;
+    }
+    last_too = faces;
+  }
+  MESSAGE(facing << " ticks face after one that did, " << parts << " of them look on at the next, " << most
+                 << " evaluations at most; " << missed << " of them have a contact that is not found yet");
+  CHECK(facing > rounds(100));
+  CHECK(parts > 0);
+  CHECK(most < 400);
+  CHECK(missed * 10 <= facing);
+}
+
 TEST_CASE("the state alone carries a search that is under way from one tick to the next") {
   const ScenePtr scene = scene_of(knobby_ball(5));
   const Preset preset = deepest_preset({.shape = FingerShape::sphere, .radius_m = 0.020});
