@@ -21,7 +21,7 @@ class SolveStatistics {
   std::uint64_t count(TickStatus status) const { return statuses_[static_cast<std::size_t>(status)]; }
   std::uint64_t count(TickEvent event) const { return events_[static_cast<std::size_t>(event)]; }
   std::uint64_t searching() const { return searching_; }  ///< ticks whose search went on at the next
-  double max_error_m() const { return max_error_m_; }  ///< of the converged ticks
+  double max_error_m() const { return max_error_m_; }     ///< of the converged ticks
   Distribution iterations() const { return distribution(iterations_); }
   /// Over the ticks whose event is `none`, that is, tracking only.
   Distribution event_free_iterations() const { return distribution(event_free_iterations_); }

@@ -16,6 +16,9 @@ using namespace tangent::test;
 
 namespace {
 
+/// Rounds, but no fewer than that: a search of several ticks must come up.
+int at_least(int least, int full) { return std::max(least, rounds(full)); }
+
 ContactQuery query_at(const Vec3& centre) {
   ContactQuery query;
   query.centre = centre;
@@ -102,7 +105,8 @@ TEST_CASE("a visit that breaks off and goes on comes to the same triangles in th
   const TriangleClusters clusters = TriangleClusters::build(scene->mesh());
   const LateHierarchy whole(scene->mesh(), nullptr), parted(scene->mesh(), &clusters);
   int broken = 0, different = 0, more = 0, found = 0;
-  for (int i = 0; i < rounds(60); ++i) {
+  const int queries = at_least(20, 60);
+  for (int i = 0; i < queries; ++i) {
     const ContactQuery query = query_at(random.in(0.01, 0.06) * random.direction());
     const int work = 60 + static_cast<int>(random.below(4000));
     for (const LateHierarchy* hierarchy : {&whole, &parted}) {
@@ -125,8 +129,8 @@ TEST_CASE("a visit that breaks off and goes on comes to the same triangles in th
   }
   CHECK(different == 0);
   CHECK(more == 0);
-  CHECK(found >= rounds(40));
-  CHECK(broken >= rounds(40));
+  CHECK(found >= queries / 2);
+  CHECK(broken >= queries / 2);
 }
 
 TEST_CASE("a search over several ticks says so, ends, and a tick that does not search has the deepest place") {
@@ -136,7 +140,7 @@ TEST_CASE("a search over several ticks says so, ends, and a tick that does not s
   for (const Finger& finger : {ball, ellipsoid}) {
     CAPTURE(static_cast<int>(finger.shape));
     const double out = 0.040 + (finger.shape == FingerShape::sphere ? 0.0195 : 0.0085);
-    const Spread spread = go_round(scene, deepest_preset(finger), rounds(1500), 5e-4, out);
+    const Spread spread = go_round(scene, deepest_preset(finger), at_least(300, 1500), 5e-4, out);
     MESSAGE(spread.searching << " of " << spread.ticks << " ticks searching, at most " << spread.longest
                              << " in a row; behind in " << spread.behind << " of them, else in "
                              << spread.behind_in_time << "; " << spread.evaluations << " evaluations at most");
@@ -169,7 +173,8 @@ TEST_CASE("where rough ground offers no contact it is looked for in parts, and f
   TickState state;
   int facing = 0, parts = 0, most = 0, missed = 0;
   bool last_too = false;
-  for (int i = 0; i < rounds(2000); ++i) {
+  const int ticks = at_least(600, 2000);
+  for (int i = 0; i < ticks; ++i) {
     const double t = 1e-3 * i;
     const TickInput input = at_position(t, {0.025 * std::sin(3.1 * t), 0.025 * std::cos(2.3 * t), -0.5e-3});
     const TickOutput out = tracking.step(preset, input, state);
@@ -185,7 +190,7 @@ TEST_CASE("where rough ground offers no contact it is looked for in parts, and f
   }
   MESSAGE(facing << " ticks face after one that did, " << parts << " of them look on at the next, " << most
                  << " evaluations at most; " << missed << " of them have a contact that is not found yet");
-  CHECK(facing > rounds(100));
+  CHECK(facing > ticks / 20);
   CHECK(parts > 0);
   CHECK(most < 400);
   CHECK(missed * 10 <= facing);
@@ -197,7 +202,7 @@ TEST_CASE("the state alone carries a search that is under way from one tick to t
   Stepper one(scene);
   TickState state;
   int compared = 0, different = 0;
-  for (int i = 0; i < rounds(1500); ++i) {
+  for (int i = 0; i < at_least(300, 1500); ++i) {
     const TickInput input = round_the_ball(i, 5e-4, 0.0595);
     if (state.clearance.under_way && ++compared <= 40) {
       Stepper another(scene);
