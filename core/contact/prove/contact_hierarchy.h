@@ -20,6 +20,7 @@
 #pragma once
 
 #include "core/base/tolerances.h"
+#include "core/contact/search_work.h"
 #include "core/finger/finger_core.h"
 #include "core/mesh/contact_mesh.h"
 #include "core/surface/pn_patch.h"
@@ -67,7 +68,7 @@ struct ContactQuery {
   const FingerCore* core_ahead = nullptr;  ///< the same in the middle of the look-ahead, where `ahead` is not 0
   double here_m = 0.0;  ///< set for the visitor: the margin that its triangle is asked for, margin_m or 0
   SearchPart part = SearchPart::whole;  ///< set for the visitor: what of its triangle is asked for
-  /// What has been done so far, of nodes and what the visitor adds (search/search_work.h), and when to break off.
+  /// What has been done so far, of nodes and what the visitor adds (search_work.h), and when to break off.
   int work = 0, most_work = std::numeric_limits<int>::max();
   bool is_spent() const { return work >= most_work; }
 };
@@ -119,7 +120,6 @@ class ContactHierarchy {
   friend class ContactHierarchyBuilder;
   static constexpr std::uint32_t kLeaf = 0x80000000u;
   static constexpr int kMaxDepth = 64;
-  static constexpr int kNodeWork = 60, kCoreNodeWork = 120;  // a step down, search/search_work.h
 
   /// Preorder: the first child follows its parent.
   struct Node {
@@ -260,7 +260,7 @@ bool ContactHierarchy::visit_on(ContactQuery& query, Visit& visit, std::uint32_t
       if (!visit(entry_of_leaf & kTriangleBits, query)) return false;
       continue;
     }
-    query.work += query.core ? kCoreNodeWork : kNodeWork;
+    query.work += query.core ? SearchWork::of_core().node : SearchWork::of_round().node;
     const std::uint32_t a = entry.node + 1, b = node.link;
     const double reach_a = reach2(a, query), reach_b = reach2(b, query);
     const bool a_first = reach_a <= reach_b;

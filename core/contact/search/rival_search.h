@@ -5,7 +5,7 @@
 #include "core/contact/prove/triangle_proof.h"
 #include "core/contact/search/height_change.h"
 #include "core/contact/search/rivals.h"
-#include "core/contact/search/search_work.h"
+#include "core/contact/search_work.h"
 
 #include <array>
 #include <cmath>

@@ -20,8 +20,11 @@ struct BegunSearch {
   IterationResult tracked;
 
   BegunSearch(const ContactContext& now, const Clearance& from)
-      : begun(from), context{now.cache, now.settings, now.finger, pose,          now.origin, nullptr,
-                             0,         now.moved_m,  now.moved,  kMostCrossings} {}
+      : begun(from), context{now.cache, now.settings, now.finger, pose, now.origin} {
+    context.moved_m = now.moved_m;
+    context.moved = now.moved;
+    context.late_m = now.late_m;
+  }
   BegunSearch(const BegunSearch&) = delete;
   BegunSearch& operator=(const BegunSearch&) = delete;
 

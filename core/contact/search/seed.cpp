@@ -6,7 +6,7 @@
 #include "core/contact/prove/clearance_check.h"
 #include "core/contact/prove/triangle_proof.h"
 #include "core/contact/search/beyond_fold.h"
-#include "core/contact/search/search_work.h"
+#include "core/contact/search_work.h"
 #include "core/finger/facing_normal.h"
 
 #include <algorithm>
@@ -93,11 +93,22 @@ double likely_rank(ContactContext& context, const SearchStructures& search, doub
   return glm::dot(centre - hit.point, normal) >= 0.0 ? further : context.finger.reach_m() + further;
 }
 
+/// Every contact of a finger at the context's pose, however far off. `core`: room for that of one that is not round.
+ContactQuery query_for_all(ContactContext& context, std::optional<FingerCore>& core) {
+  ContactQuery query;
+  query.centre = context.pose.position;
+  query.nearest_m = query.inside_m = std::numeric_limits<double>::max();
+  query.tilt_rad = context.finger.tilt_rad();
+  if (!is_round(context.finger)) query.core = context.core = &core.emplace(context.finger, context.pose);
+  return query;
+}
+
 /// A part of one search of everything, from the pose that it began at. What it finds there is led to the present pose.
 /// False: it goes on at the next tick.
 bool seed_in_parts(ContactContext& context, const SearchStructures& search, int work, Clearance& begun,
                    Selection& selection) {
-  if (!begun.under_way || gone_m(begun, context.finger, context.pose) > context.hystereses_m(kMostLate)) {
+  const bool of_rivals = begun.margin_m >= 0.0;  // one of a tick before that searched for other things
+  if (!begun.under_way || of_rivals || gone_m(begun, context.finger, context.pose) > context.hystereses_m(kMostLate)) {
     begun = Clearance{};
     begun.centre = context.pose.position;
     begun.orientation = context.pose.orientation;
@@ -105,12 +116,8 @@ bool seed_in_parts(ContactContext& context, const SearchStructures& search, int 
   const FingerPose pose{begun.centre, begun.orientation};
   ContactContext there{context.cache, context.settings, context.finger, pose, context.origin};
   std::optional<FingerCore> core;
-  ContactQuery query;
-  query.centre = pose.position;
-  query.nearest_m = query.inside_m = std::numeric_limits<double>::max();
-  query.tilt_rad = context.finger.tilt_rad();
+  ContactQuery query = query_for_all(there, core);
   query.most_work = work;
-  if (!is_round(context.finger)) query.core = there.core = &core.emplace(context.finger, pose);
   const SearchWork cost = is_round(context.finger) ? SearchWork::of_round() : SearchWork::of_core();
   FeatureMemory features;
   double rank = std::numeric_limits<double>::max();
@@ -137,12 +144,8 @@ bool seed_in_parts(ContactContext& context, const SearchStructures& search, int 
 /// Contacts of a rank below `most`. What failed before is not tried again: it would start from the same place.
 void seed_by_hierarchy(ContactContext& context, const SearchStructures& search, double most, FailedStarts& failed,
                        Selection& selection) {
-  ContactQuery query;
-  query.centre = context.pose.position;
-  query.nearest_m = query.inside_m = std::numeric_limits<double>::max();
-  query.tilt_rad = context.finger.tilt_rad();
   std::optional<FingerCore> core;
-  if (!is_round(context.finger)) query.core = context.core = &core.emplace(context.finger, context.pose);
+  ContactQuery query = query_for_all(context, core);
   if (most < std::numeric_limits<double>::max()) limit_query(query, context.finger, most);
   int solves = 0;
   FeatureMemory features;

@@ -28,7 +28,8 @@ TICKS = _record([("tick", "<u8", 8), ("t_s", "<f8", 16), ("status", "<i4", 4), (
                  ("u", "<f8", 32), ("v", "<f8", 40), *_axes("contact", "_m", 48), *_axes("normal", "", 72),
                  ("penetration_m", "<f8", 96), *_axes("force", "_n", 104), ("cld_m", "<f8", 128),
                  ("error_m", "<f8", 136), ("iterations", "<i4", 144), ("triangle_changes", "<i4", 148),
-                 ("event", "<i4", 28), *_axes("decided_force", "_n", 152), ("decided_cld_m", "<f8", 176), ("searching", "<i4", 184), 192])
+                 ("event", "<i4", 28), *_axes("decided_force", "_n", 152), ("decided_cld_m", "<f8", 176),
+                 ("searching", "<i4", 184), 192])
 """dtype of what `solve` returns: the columns of ticks.csv, without the time a tick took. SI, world frame; `status` and
 `event` index STATUSES and EVENTS; `triangle` is -1 where nothing is tracked."""
 

@@ -1,7 +1,7 @@
 // A search that takes more than a tick's work goes on in the next ticks, and ends with the same knowledge.
 #include "core/contact/decide/decide.h"
 #include "core/contact/prove/late_hierarchy.h"
-#include "core/contact/search/search_work.h"
+#include "core/contact/search_work.h"
 #include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 // What the parts of a search cost, counted and not timed, so that how much of it a tick does is the same on every
-// machine and whatever is cached. The unit is about a nanosecond: least squares over 24,000 searches in spot, fandisk,
-// the bunny, rough ground and a cone of slivers (2.8 GHz); a search of over 20 us took 0.6 to 1.8 times what is counted
-// for it in 4 of 5.
+// machine and whatever is cached. The unit is about a nanosecond of the machine that the figures of the page on
+// measurements are from: least squares over 23,841 searches in spot, the fandisk, the bunny, rough ground and a cone of
+// slivers, of which 8 in 10 of over 20 us took 0.8 to 1.8 times what is counted for them.
 #pragma once
 
 #include <algorithm>
@@ -9,14 +9,15 @@
 namespace tangent {
 
 struct SearchWork {
+  int node;        ///< a step down the tree, with both that are below
   int look;        ///< at a triangle
   int test;        ///< of its patch or a part of that
   int glance;      ///< at a triangle from the middle of the look-ahead
   int slope;       ///< whether a triangle leads to a known contact
   int evaluation;  ///< of the surface, in a solve
 
-  static constexpr SearchWork of_round() { return {100, 70, 200, 0, 220}; }
-  static constexpr SearchWork of_core() { return {100, 100, 400, 300, 700}; }
+  static constexpr SearchWork of_round() { return {60, 100, 70, 200, 0, 220}; }
+  static constexpr SearchWork of_core() { return {120, 100, 100, 400, 300, 700}; }
 };
 
 /// In one tick. A search that takes more goes on at the next. Larger: late ticks; smaller: more ticks that do not know
