@@ -41,12 +41,14 @@ Vec3 last_way_out(ContactContext& context, const TickContext& tick, const Tracke
   std::size_t count = 0;
   const Vec3 was_at = tick.state.last_position - tick.origin;
   const bool alone = !tick.state.unentered && glm::dot(was_at - kept.point, kept.normal) < 0.0;
+  const FingerPose was{was_at, tick.state.last_orientation};
+  ContactContext then{context.cache, context.settings, context.finger, was, context.origin};
   if (!tick.state.unentered) planes[count++] = plane_at(kept);
   for (const SurfacePlace& place : std::span(places.places).first(alone ? 0 : places.count)) {
     TrackedPlane at;
     at.move_to(place);
     SurfaceSample sample;
-    sample_place(context, at, sample);
+    sample_place(then, at, sample);  // on edges the normal faced the finger
     planes[count++] = plane_at(at);
     ++evaluations;
   }

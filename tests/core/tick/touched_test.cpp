@@ -194,11 +194,10 @@ struct Leaps {
   int marked = 0, unmarked = 0;
 };
 
-Leaps leaps_over(const ScenePtr& scene, double radius_m, const std::vector<Vec3>& way) {
+Leaps leaps_over(const ScenePtr& scene, const Preset& preset, const std::vector<Vec3>& way) {
   Leaps leaps;
   Stepper stepper(scene);
   TickState state;
-  const Preset preset = all_of(radius_m);
   TickOutput last;
   for (std::size_t i = 0; i < way.size(); ++i) {
     const TickOutput out = stepper.step(preset, at_position(1e-3 * static_cast<double>(i), way[i]), state);
@@ -218,7 +217,7 @@ TEST_CASE("where a place that pushes with others comes up deep or ends at once t
   const RecordedScene stairs = recorded_scene("staircase");
   std::vector<Vec3> spiral;
   for (const TickInput& input : stairs.poses) spiral.push_back(input.finger.position);
-  Leaps leaps = leaps_over(stairs.scene, 0.020, spiral);
+  Leaps leaps = leaps_over(stairs.scene, all_of(0.020), spiral);
   ContactMeshOptions smooth;
   smooth.crease_rad = 180.0 * kDegree;
   const ScenePtr crate =
@@ -231,10 +230,31 @@ TEST_CASE("where a place that pushes with others comes up deep or ends at once t
     Vec3 at(random.in(-0.01, 0.01), random.in(-0.01, 0.01), random.in(0.003, 0.006));
     std::vector<Vec3> way(80);
     for (Vec3& p : way) p = at += 5e-5 * along;
-    const Leaps more = leaps_over(crate, 0.005, way);
+    const Leaps more = leaps_over(crate, all_of(0.005), way);
     leaps.marked += more.marked, leaps.unmarked += more.unmarked;
   }
   MESSAGE(leaps.marked << " leaps are marked, " << leaps.unmarked << " are not");
+  CHECK(leaps.marked >= 10);
+  CHECK(leaps.unmarked == 0);
+}
+
+TEST_CASE("past a thin rim, where the edge that pushed ends, the leap is marked") {
+  PolygonMesh mesh;  // a wedge: its underside faces down, its top slopes by a tenth, they meet at x = 0
+  const double a = 0.04, b = 0.03;
+  mesh.positions = {{0, -b, 0}, {0, b, 0}, {-a, -b, 0}, {-a, b, 0}, {-a, -b, 0.1 * a}, {-a, b, 0.1 * a}};
+  for (const auto& f : {std::array<std::uint32_t, 3>{0, 2, 3}, {0, 3, 1}, {0, 1, 5}, {0, 5, 4}})
+    mesh.add_face({f[0], f[1], f[2]});
+  const ScenePtr scene = scene_of(mesh);
+  Preset preset = all_of(0.008);
+  preset.finger.shape = FingerShape::capsule;
+  preset.finger.half_length_m = 0.010;
+  Leaps leaps;
+  for (int from = 0; from < 25; ++from) {
+    std::vector<Vec3> way;
+    for (int i = 0; i < 160; ++i) way.emplace_back(4e-4 * from, 1e-3, -0.012 + 1.5e-4 * i);
+    const Leaps more = leaps_over(scene, preset, way);
+    leaps.marked += more.marked, leaps.unmarked += more.unmarked;
+  }
   CHECK(leaps.marked >= 10);
   CHECK(leaps.unmarked == 0);
 }
