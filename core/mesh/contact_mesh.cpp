@@ -65,6 +65,7 @@ class ContactMeshBuilder {
   Status shade(const FacesAndCreases& faces);
   void take_file_normals(const SurfaceView& surface, std::span<const Vec3> faces);
   void turn_inside_out(const InsideOut& inside_out);
+  bool finds_concave_crease() const;
   void finish();
   tl::unexpected<Error> nothing_usable() const;
 
@@ -340,8 +341,16 @@ void ContactMeshBuilder::turn_inside_out(const InsideOut& inside_out) {
   mesh_.normal_index_ = std::move(normals.index);
 }
 
+bool ContactMeshBuilder::finds_concave_crease() const {
+  for (std::uint32_t t = 0; t < mesh_.triangle_count(); ++t)
+    for (std::uint32_t k = 0; k < 3; ++k)
+      if ((mesh_.crease_bits_[t] >> k & 1u) && mesh_.concave_crease(t, k)) return true;
+  return false;
+}
+
 void ContactMeshBuilder::finish() {
   mesh_.crease_bits_ = feature_bits(surface(), CornerNormalsView{mesh_.normals_, mesh_.normal_index_}, run_both_);
+  mesh_.has_concave_crease_ = finds_concave_crease();
   mesh_.flat_regions_ = FlatRegions::build(mesh_, run_both_);
   mesh_.crowded_ = crowded_vertices(mesh_);
   mesh_.name_ = source_.name;
@@ -406,6 +415,17 @@ const CrowdedVertex* ContactMesh::crowded_vertex(std::uint32_t vertex) const {
   const auto found = std::lower_bound(crowded_.begin(), crowded_.end(), vertex,
                                       [](const CrowdedVertex& c, std::uint32_t v) { return c.vertex < v; });
   return found != crowded_.end() && found->vertex == vertex ? &*found : nullptr;
+}
+
+bool ContactMesh::concave_crease(std::uint32_t t, std::uint32_t edge) const {
+  const EdgeLink other = across(t, edge);
+  if (other.triangle == kNone) return false;
+  const Vec3& far_corner = position(other.triangle, (other.edge + 2) % 3);
+  const Vec3& near_corner = position(t, (edge + 2) % 3);
+  const Vec3 middle = 0.5 * (position(t, edge) + position(t, (edge + 1) % 3));
+  const Vec3 near_normal = normal(t, edge) + normal(t, (edge + 1) % 3);
+  const Vec3 far_normal = normal(other.triangle, other.edge) + normal(other.triangle, (other.edge + 1) % 3);
+  return glm::dot(far_corner - middle, near_normal) + glm::dot(near_corner - middle, far_normal) > 0.0;
 }
 
 std::size_t ContactMesh::memory_bytes() const {

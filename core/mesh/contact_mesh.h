@@ -141,6 +141,11 @@ class ContactMesh {
   /// True when a crease or boundary edge ends at this corner (also through a neighbour's edge).
   bool feature_corner(std::uint32_t t, std::uint32_t corner) const { return (crease_bits_[t] >> (3 + corner)) & 1u; }
 
+  /// True where the far side of crease edge k rises above the near side's tangent planes.
+  bool concave_crease(std::uint32_t t, std::uint32_t edge) const;
+  /// Whether there is such a crease anywhere: only beside one can a wall end under a finger that still touches it.
+  bool has_concave_crease() const { return has_concave_crease_; }
+
   /// Asks the processor for what is kept of a triangle, so that it is on its way when it is read.
   void prefetch(std::uint32_t t) const {
     __builtin_prefetch(&vertices_[t]);
@@ -193,6 +198,7 @@ class ContactMesh {
   UnfilledVector<std::array<std::uint32_t, 3>> normal_index_;
   UnfilledVector<std::array<std::uint32_t, 3>> links_;  ///< triangle << 2 | edge, or kNone
   std::vector<std::uint8_t> crease_bits_;  ///< bit k: edge k is a crease; bit 3+k: corner k touches a feature edge
+  bool has_concave_crease_ = false;
   FlatRegions flat_regions_;
   std::vector<CrowdedVertex> crowded_;
   std::array<MeshDefectList, kMeshDefectCount> defects_;

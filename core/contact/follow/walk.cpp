@@ -52,7 +52,7 @@ SurfacePlace end_on_region(const ContactMesh& mesh, std::uint32_t t, const Vec2&
   for (std::uint32_t edge = 0; edge < 3 && foot.beside_m > 0.0; ++edge) {
     const EdgeKind kind = mesh.edge_kind(foot.triangle, edge);
     if (weights[opposite_corner(edge)] > 1e-12 || kind == EdgeKind::smooth) continue;
-    if (kind == EdgeKind::crease && concave_crease(mesh, foot.triangle, edge)) continue;
+    if (kind == EdgeKind::crease && mesh.concave_crease(foot.triangle, edge)) continue;
     return place_on_edge(foot.triangle, edge, std::clamp(edge_fraction(edge, foot.u, foot.v), 0.0, 1.0));
   }
   return place_on_face(foot.triangle, foot.u, std::min(foot.v, 1.0 - foot.u));
@@ -77,17 +77,6 @@ bool to_barycentric(const ContactMesh& mesh, std::uint32_t t, const Vec3& vector
   du = swapped ? of_b : of_a;
   dv = swapped ? of_a : of_b;
   return true;
-}
-
-bool concave_crease(const ContactMesh& mesh, std::uint32_t t, std::uint32_t edge) {
-  const EdgeLink other = mesh.across(t, edge);
-  if (other.triangle == kNone) return false;
-  const Vec3& far_corner = mesh.position(other.triangle, opposite_corner(other.edge));
-  const Vec3& near_corner = mesh.position(t, opposite_corner(edge));
-  const Vec3 middle = 0.5 * (mesh.position(t, edge) + mesh.position(t, (edge + 1) % 3));
-  const Vec3 near_normal = mesh.normal(t, edge) + mesh.normal(t, (edge + 1) % 3);
-  const Vec3 far_normal = mesh.normal(other.triangle, other.edge) + mesh.normal(other.triangle, (other.edge + 1) % 3);
-  return glm::dot(far_corner - middle, near_normal) + glm::dot(near_corner - middle, far_normal) > 0.0;
 }
 
 std::optional<SurfacePlace> walk_past_end(const ContactMesh& mesh, std::uint32_t t, std::uint32_t edge, bool forwards,
@@ -141,7 +130,7 @@ WalkResult walk_face(const ContactMesh& mesh, std::uint32_t t, double u, double 
     }
     const double f = std::clamp(edge_fraction(exit, u + share * du, v + share * dv), 0.0, 1.0);
     const EdgeKind kind = mesh.edge_kind(t, exit);
-    if (kind == EdgeKind::boundary || (kind == EdgeKind::crease && !concave_crease(mesh, t, exit))) {
+    if (kind == EdgeKind::boundary || (kind == EdgeKind::crease && !mesh.concave_crease(t, exit))) {
       result.place = place_on_edge(t, exit, f);
       return result;
     }

@@ -31,9 +31,6 @@ WalkResult walk_face(const ContactMesh& mesh, std::uint32_t t, double u, double 
 std::optional<SurfacePlace> walk_past_end(const ContactMesh& mesh, std::uint32_t t, std::uint32_t edge, bool forwards,
                                           double beyond_m);
 
-/// True where the far side of crease edge k rises above the near side's tangent planes.
-bool concave_crease(const ContactMesh& mesh, std::uint32_t t, std::uint32_t edge);
-
 /// (du, dv) of the in-plane part of `vector` in the frame of triangle t. False where the triangle has no area.
 bool to_barycentric(const ContactMesh& mesh, std::uint32_t t, const Vec3& vector, double& du, double& dv);
 

@@ -279,3 +279,26 @@ TEST_CASE("links and creases of messy meshes are those that a walk from triangle
   }
   CHECK(all == 15529795257180874914u);
 }
+
+TEST_CASE("a mesh knows its inner edges from its outer ones, and whether it has any") {
+  PolygonMesh mesh;  // two walls that meet at right angles, seen from inside the angle
+  mesh.positions = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 1}, {0, 1, 1}};
+  for (const bool inside : {true, false}) {
+    PolygonMesh walls;
+    walls.positions = mesh.positions;
+    for (const auto& f : {std::array<std::uint32_t, 3>{0, 2, 3}, {0, 3, 1}, {0, 1, 5}, {0, 5, 4}})
+      walls.add_face({f[0], f[inside ? 1 : 2], f[inside ? 2 : 1]});
+    const auto built = ContactMesh::build(walls);
+    REQUIRE(built.has_value());
+    CHECK(built->has_concave_crease() == inside);
+    int creases = 0, concave = 0;
+    for (std::uint32_t t = 0; t < built->triangle_count(); ++t)
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        if (built->edge_kind(t, k) != EdgeKind::crease) continue;
+        ++creases;
+        concave += built->concave_crease(t, k);
+      }
+    CHECK(creases == 2);  // from both sides
+    CHECK(concave == (inside ? 2 : 0));
+  }
+}
