@@ -26,10 +26,14 @@ const char* to_string(Feature feature);
 /// that edge or corner).
 struct SurfacePlace {
   Feature feature = Feature::none;
-  std::uint8_t side = 0;  ///< edge: which edge of the triangle; vertex: which corner
+  std::uint8_t side = 0;  ///< edge: which edge of the triangle; vertex: which corner; face: 0, or kWall
   std::uint32_t triangle = kNone;
   double u = 0.0, v = 0.0;
 };
+
+/// SurfacePlace::side of a place on a face that is not the finger's own contact with it (tick/walls.h).
+inline constexpr std::uint8_t kWall = 1;
+inline bool is_wall(const SurfacePlace& place) { return place.feature == Feature::face && place.side == kWall; }
 
 /// Barycentric (u, v) of the point at fraction f of edge k, exactly on the edge.
 inline Vec2 edge_point_uv(std::uint32_t edge, double f) {

@@ -2,6 +2,7 @@
 // like it (preset key force.contacts).
 #pragma once
 
+#include "core/base/tolerances.h"
 #include "core/contact/tracked_plane.h"
 #include "core/finger/plane_contact.h"
 
@@ -20,6 +21,12 @@ struct TouchedPlaces {
   std::array<SurfacePlace, kMostTouched> places;
 };
 
+/// Places that have met; both walls of an inner edge have not where they meet, they still face apart.
+inline bool are_one_place(const TrackedPlane& a, const TrackedPlane& b, double same_m) {
+  const Vec3 apart = a.point - b.point;
+  return glm::dot(apart, apart) <= same_m * same_m && glm::dot(a.normal, b.normal) > kJumpCosine;
+}
+
 struct TouchedContact {
   TrackedPlane plane;
   PlaneContact contact;
@@ -28,6 +35,7 @@ struct TouchedContact {
 /// Those of one tick, in no order.
 struct TouchedContacts {
   std::size_t count = 0;
+  bool with_walls = false;  ///< the finger is so deep in the tracked place that walls were looked for (tick/walls.h)
   std::array<TouchedContact, kMostTouched> contacts;
 
   bool full() const { return count == kMostTouched; }
@@ -40,10 +48,8 @@ struct TouchedContacts {
   }
   /// In place of the shallowest where there is no room, or not at all. `same_m`: nearer than that it is a known place.
   void add(const TouchedContact& contact, double same_m) {
-    for (const TouchedContact& c : all()) {
-      const Vec3 apart = c.plane.point - contact.plane.point;
-      if (glm::dot(apart, apart) <= same_m * same_m) return;
-    }
+    for (const TouchedContact& c : all())
+      if (are_one_place(c.plane, contact.plane, same_m)) return;
     if (!full()) {
       contacts[count++] = contact;
       return;

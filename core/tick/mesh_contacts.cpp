@@ -7,6 +7,7 @@
 #include "core/tick/raw_contacts.h"
 #include "core/tick/rendering.h"
 #include "core/tick/smooth_contact.h"
+#include "core/tick/walls.h"
 
 #include <algorithm>
 
@@ -15,13 +16,15 @@ namespace {
 
 /// The way out of the tracked plane and the others, which push together; zero where there are no others.
 Vec3 way_out_of(const TickContext& tick, const IterationResult& tracked, const TouchedContacts& touched) {
-  if (touched.count == 0 || !tracked.converged() || !pushes_with_others(tracked.contact)) return Vec3(0.0);
-  std::array<RenderPlane, kMostPlanes> planes;
-  std::size_t count = 0;
-  if (!tick.state.unentered) planes[count++] = {tracked.plane.normal, tracked.contact.penetration_m, 1.0};
+  if (touched.count == 0 || !tracked.converged()) return Vec3(0.0);
+  const TouchedPlane first = touched_plane(tracked.plane, tracked.contact);
+  const double tolerance = tick.preset.solver.tolerance_m;
+  PushingPlanes planes;
+  if (!tick.state.unentered) planes.add({tracked.plane.normal, tracked.contact.penetration_m, 1.0});
   for (const TouchedContact& c : touched.all())
-    if (pushes_with_others(c.contact)) planes[count++] = {c.plane.normal, c.contact.penetration_m, 1.0};
-  return shortest_way_out(std::span(planes).first(count));
+    if (pushes_beside(first, touched_plane(c.plane, c.contact), touched.with_walls, tolerance))
+      planes.add({c.plane.normal, c.contact.penetration_m, 1.0});
+  return shortest_way_out(planes.all());
 }
 
 /// `way_out` where there is one, else that of the tracked contact alone.
@@ -30,29 +33,36 @@ Vec3 way_out_or_one(const TickContext& tick, const IterationResult& tracked, con
   return std::max(0.0, tracked.contact.penetration_m) * tracked.plane.normal;
 }
 
+/// Whether the finger's centre was behind the kept plane at the last tick, where that pushed.
+bool was_behind(const TickContext& tick, const TrackedPlane& kept) {
+  return !tick.state.unentered && glm::dot(tick.state.last_position - tick.origin - kept.point, kept.normal) < 0.0;
+}
+
 /// The way out of what the last tick left, the `kept` plane and those of `places`, for the finger as it is now. A plane
-/// that its centre has come behind since then pushed, too; the kept one pushed alone where the centre was behind it.
+/// that its centre has come behind since then pushed, too; where the centre was behind the kept one, that pushed alone,
+/// or with walls.
 Vec3 last_way_out(ContactContext& context, const TickContext& tick, const TrackedPlane& kept,
                   const TouchedPlaces& places, int& evaluations) {
   const auto plane_at = [&](const TrackedPlane& at) {
     return RenderPlane{at.normal, contact_on_plane(tick.finger, tick.local, at.point, at.normal).penetration_m, 1.0};
   };
-  std::array<RenderPlane, kMostPlanes> planes;
-  std::size_t count = 0;
+  PushingPlanes planes;
   const Vec3 was_at = tick.state.last_position - tick.origin;
-  const bool alone = !tick.state.unentered && glm::dot(was_at - kept.point, kept.normal) < 0.0;
+  const TouchedPlane first{kept.point, kept.normal, was_behind(tick, kept)};
   const FingerPose was{was_at, tick.state.last_orientation};
   ContactContext then{context.cache, context.settings, context.finger, was, context.origin};
-  if (!tick.state.unentered) planes[count++] = plane_at(kept);
-  for (const SurfacePlace& place : std::span(places.places).first(alone ? 0 : places.count)) {
+  const bool with_walls = can_lack_walls(context.cache.mesh(), tick.finger, was_at, kept, places);
+  if (!tick.state.unentered) planes.add(plane_at(kept));
+  for (const SurfacePlace& place : std::span(places.places).first(places.count)) {
     TrackedPlane at;
     at.move_to(place);
     SurfaceSample sample;
     sample_place(then, at, sample);  // on edges the normal faced the finger
-    planes[count++] = plane_at(at);
+    const TouchedPlane there{at.point, at.normal, glm::dot(was_at - at.point, at.normal) < 0.0};
+    if (pushes_beside(first, there, with_walls, context.settings.tolerance_m)) planes.add(plane_at(at));
     ++evaluations;
   }
-  return shortest_way_out(std::span(planes).first(count));
+  return shortest_way_out(planes.all());
 }
 
 /// Whether the way out has leapt `before` -> now, by more than the finger's motion explains.

@@ -3,6 +3,7 @@
 #include "core/base/tolerances.h"
 #include "core/contact/follow/follow_touched.h"
 #include "core/contact/prove/clearance_check.h"
+#include "core/tick/walls.h"
 
 #include <algorithm>
 
@@ -40,8 +41,8 @@ double depth_before(const ContactContext& context, const TickState& state) {
 bool found_before(const TickState& state) { return state.has_converged && state.last_converged_s >= state.last_t_s; }
 
 /// Whether a place is unentered at which the contact leapt or started anew.
-bool is_unentered(const ContactContext& context, const TickState& state, const IterationResult& found) {
-  const double before = depth_before(context, state);
+bool is_unentered(ContactContext& context, const TickState& state, const IterationResult& found, int& evaluations) {
+  const double before = std::max(depth_before(context, state), deepest_m(context, state.touched, evaluations));
   const bool was_free = found_before(state) && !(before > 0.0);
   return is_unentered(step_of(context), found.contact.penetration_m, before, was_free);
 }
@@ -68,9 +69,12 @@ bool look_for_touched(ContactContext& context, const SearchStructures& search, d
                                  gone_to(context, state, gone));
   state.clearance = rival.clearance;
   decided.searching = rival.searching;
-  // Where the contact was lost and a shallower one is gone on with, what the lost one was counts, too.
+  // Where the contact was lost and a shallower one is gone on with, what the lost one was counts, too; so do the
+  // others.
+  const bool found = rival.deeper || rival.touched.count > 0;
   const double depth =
-      std::max(depth_before(context, state), state.unentered ? 0.0 : decided.contact.contact.penetration_m);
+      std::max({depth_before(context, state), state.unentered ? 0.0 : decided.contact.contact.penetration_m,
+                found ? deepest_m(context, state.touched, decided.evaluations) : 0.0});
   const std::size_t followed = touched.count;
   const TouchedContact tracked{decided.contact.plane, decided.contact.contact};
   const bool has_far_side = !state.unentered && !was_put_elsewhere(step_of(context));
@@ -100,7 +104,10 @@ void watch_touched(ContactContext& context, const SearchStructures& search, Tick
   const double takeover = takeover_bound_m(context.settings, contact_rank(context.finger, tracked),
                                            tracked.penetration_m > 0.0 ? kTremor : 1.0);
   if (look_for_touched(context, search, takeover, state, decided, touched) || state.unentered) return;
-  decide_touched(context, takeover, touched, state.plane, decided);
+  if (!is_behind_in_inner_edge(context, decided.contact, touched))
+    decide_touched(context, takeover, touched, state.plane, decided);
+  if (can_lack_walls(context.cache.mesh(), context.finger, context.pose.position, decided.contact.plane, state.touched))
+    add_walls(context, search.nearest, state.touched, state.plane, decided, touched);
 }
 
 /// Where following failed: the deepest of the other places that are touched, if there is one, is the one to go on with.
@@ -110,7 +117,7 @@ bool go_on_with_touched(ContactContext& context, TickState& state, DecidedContac
   const double reach = is_round(context.finger) ? round_radius_m(context.finger) : context.finger.reach_m();
   const bool found = decide_touched(context, reach, touched, state.plane, decided);
   touched.count = 0;  // they are followed again beside the new one
-  return found;
+  return found || go_on_with_wall(context, state.touched, decided);
 }
 
 /// Where following failed.
@@ -143,10 +150,10 @@ bool start_after_leap(ContactContext& context, const SearchStructures& search, c
 }
 
 /// Whether a place at which a lost contact was started anew can't have been entered.
-bool is_new_unentered(const ContactContext& context, const TickState& state, const IterationResult& found) {
+bool is_new_unentered(ContactContext& context, const TickState& state, const IterationResult& found, int& evaluations) {
   const FingerStep step = step_of(context);
   const double before = depth_before(context, state);
-  if (is_unentered(context, state, found)) return true;
+  if (is_unentered(context, state, found, evaluations)) return true;
   if (!(before > 0.0) || was_put_elsewhere(step)) return false;
   TouchedContact last;
   last.plane.normal = state.last_converged.normal;
@@ -173,7 +180,7 @@ static void find_and_watch(ContactContext& context, const SearchStructures& sear
     if (!(depth > 0.0)) {
       state.unentered = 0;  // left: from now on it counts
     } else if ((followed == Followed::branched || !found_before(state)) && !state.unentered) {
-      state.unentered = is_unentered(context, state, decided.contact);
+      state.unentered = is_unentered(context, state, decided.contact, decided.evaluations);
     }
     if (!touched) return watch_others(context, search, state, decided);
   } else if (touched && !started && go_on_with_touched(context, state, decided, *touched)) {
@@ -186,10 +193,11 @@ static void find_and_watch(ContactContext& context, const SearchStructures& sear
       start_anew(context, search, first, state, decided);
     }
     if (!decided.facing())  // there, nothing could be entered
-      state.unentered = !first && is_new_unentered(context, state, decided.contact);
+      state.unentered = !first && is_new_unentered(context, state, decided.contact, decided.evaluations);
   }
   if (!touched) return;
   touched->count = 0;
+  touched->with_walls = false;
   if (decided.converged()) watch_touched(context, search, state, decided, *touched);
   if (touched->count > 0 || state.touched.count > 0) state.touched = touched->places();
 }

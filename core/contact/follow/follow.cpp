@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace tangent {
 namespace {
@@ -29,33 +28,37 @@ bool has_leapt_in_depth(const ContactContext& context, const TrackedPlane& kept,
   return glm::dot(change, change) > explained * explained;
 }
 
+/// A round finger's centre has to be behind the plane; of others it is not known, but in meshes without inner edges
+/// nothing more is asked.
 bool can_be_in_hollow(const ContactContext& context, const TrackedPlane& kept) {
-  return context.settings.method == Method::robust && is_round(context.finger) &&
-         glm::dot(context.pose.position - kept.point, kept.normal) < 0.0;
+  if (context.settings.method != Method::robust) return false;
+  if (!is_round(context.finger)) return context.cache.mesh().has_concave_crease();
+  return glm::dot(context.pose.position - kept.point, kept.normal) < 0.0;
+}
+
+bool is_in_hollow(const ContactContext& context, const TrackedPlane& kept) {
+  return kept.feature != Feature::face && can_be_in_hollow(context, kept) && is_hollow(context.cache.mesh(), kept);
 }
 
 /// Where the kept contact was on a face, and was lost: whether it has come into a hollow crease or corner of that.
 bool came_into_hollow(ContactContext& context, const TrackedPlane& kept, IterationResult& result) {
   const ContactMesh& mesh = context.cache.mesh();
-  const NearestHit hit = closest_on_triangle(mesh, kept.triangle, context.pose.position);
+  const Vec3 nearest =
+      is_round(context.finger) ? context.pose.position : support_point(context.finger, context.pose, kept.normal);
+  const NearestHit hit = closest_on_triangle(mesh, kept.triangle, nearest);
   const int evaluations = result.evaluations;
   if (!find_in_hollow(context, feature_at(mesh, kept.triangle, hit.u, hit.v), result)) return false;
   result.evaluations += evaluations;
   return true;
 }
 
-/// Where the kept contact was on a hollow crease: whether it has gone on to the face on one of its sides.
+/// Where the kept contact was on a crease: whether it has gone on to the face on one of its sides.
 bool went_on_to_side(ContactContext& context, const TrackedPlane& kept, IterationResult& result) {
-  const ContactMesh& mesh = context.cache.mesh();
-  const double f = edge_fraction(kept.side, kept.u, kept.v);
-  const EdgeLink other = mesh.across(kept.triangle, kept.side);
-  const std::pair<std::uint32_t, Vec2> sides[] = {{kept.triangle, edge_point_uv(kept.side, f)},
-                                                  {other.triangle, edge_point_uv(other.edge, 1.0 - f)}};
   int evaluations = result.evaluations;
-  for (const auto& [triangle, uv] : sides) {
-    iterate(context, place_on_face(triangle, uv.x, uv.y), kTrackBudget, result);
+  for (const SurfacePlace& side : sides_of(context.cache.mesh(), kept)) {
+    iterate(context, side, kTrackBudget, result);
     result.evaluations = evaluations += result.evaluations;
-    if (result.converged() && result.contact.height_m < 0.0) return true;
+    if (result.converged() && (result.contact.height_m < 0.0 || is_hollow(context.cache.mesh(), kept))) return true;
   }
   return false;
 }
@@ -74,10 +77,16 @@ bool follow_hollow(ContactContext& context, const TrackedPlane& kept, IterationR
 Followed follow(ContactContext& context, const TrackedPlane& kept, bool sample_is_kept, IterationResult& result) {
   const bool robust = context.settings.method == Method::robust;
   const int limit = context.settings.max_iterations;
-  if (kept.feature != Feature::face && can_be_in_hollow(context, kept) && find_in_hollow(context, kept, result))
+  const auto held_unless_leapt = [&] {
     return has_leapt_in_depth(context, kept, result) ? Followed::branched : Followed::held;
+  };
+  if (is_in_hollow(context, kept) && find_in_hollow(context, kept, result)) return held_unless_leapt();
   iterate_kept(context, kept, sample_is_kept, robust ? std::min(kTrackBudget, limit) : limit, result);
-  if (!result.converged() && !follow_hollow(context, kept, result)) return Followed::lost;
+  if (!result.converged()) {
+    if (!follow_hollow(context, kept, result)) return Followed::lost;
+    const ContactMesh& mesh = context.cache.mesh();
+    if (is_hollow(mesh, kept) || is_hollow(mesh, result.plane)) return held_unless_leapt();
+  }
   if (!has_turned_over(context, kept, result)) {
     // The motion may explain as much as that, but over a fold the contact has leapt all the same.
     const bool over_fold = result.met_unstable && glm::dot(kept.normal, result.plane.normal) < kJumpCosine;

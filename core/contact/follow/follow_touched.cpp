@@ -13,18 +13,21 @@ FollowedPlaces follow_touched(ContactContext& context, const TouchedPlaces& kept
   settings.method = Method::robust;
   ContactContext quiet{context.cache, settings, context.finger, context.pose, context.origin};
   const double same = kMergedPlaces * settings.tolerance_m;
+  std::size_t own = 0;
   for (std::uint32_t i = 0; i < kept.count; ++i) {
+    if (is_wall(kept.places[i])) continue;
+    ++own;
     IterationResult r;
     iterate(quiet, kept.places[i], kTrackBudget, r);
     evaluations += r.evaluations;
     followed.folded = followed.folded || r.met_unstable;
-    const bool merged = tracked && glm::distance(r.plane.point, tracked->point) <= same;
+    const bool merged = tracked && are_one_place(r.plane, *tracked, same);
     if (!r.converged() || !pushes_with_others(r.contact) || merged ||
         r.contact.penetration_m < -context.hystereses_m(kLeftTouch))
       continue;
     now.add({r.plane, r.contact}, same);
   }
-  followed.all = now.count == kept.count;
+  followed.all = now.count == own;
   return followed;
 }
 

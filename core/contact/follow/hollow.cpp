@@ -1,5 +1,8 @@
 #include "core/contact/follow/hollow.h"
 
+#include "core/finger/facing_normal.h"
+#include "core/mesh/vertex_ring.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -14,20 +17,44 @@ bool in_hollow_fan(const EdgeFan& fan, const Vec2& turn) {
   return fan.far.y < 0.0 && turn.y <= 0.0 && turn.x * fan.far.y <= turn.y * fan.far.x;
 }
 
-/// The shortest way that brings a ball out of two planes through a point; `d` from there to its centre.
-Vec3 way_out(const Vec3& d, double radius_m, const Vec3& n1, const Vec3& n2) {
-  const double b1 = radius_m - glm::dot(d, n1), b2 = radius_m - glm::dot(d, n2), c = glm::dot(n1, n2);
-  const double det = 1.0 - c * c, along1 = b1 - c * b2, along2 = b2 - c * b1;
+/// Whether the contact with each side has passed the edge, of a round finger where its centre is behind both; `d` from
+/// the edge to that.
+bool is_past_both(const ContactContext& context, const EdgeFan& fan, const Vec3& d) {
+  if (is_round(context.finger)) return in_hollow_fan(fan, turn_of(fan, -d));
+  const Vec3 from_far = fan.far.x * fan.e2 - fan.far.y * fan.e1;  // as e2 from the near side; into the far one
+  const auto past = [&](const Vec3& normal, const Vec3& across) {
+    return glm::dot(contact_on_plane(context.finger, context.pose, fan.point, normal).travel, across);
+  };
+  return past(fan.near_normal, fan.e2) >= 0.0 && past(fan.far_normal, from_far) <= 0.0;
+}
+
+/// The shortest way that brings the finger out of both sides.
+Vec3 way_out(const ContactContext& context, const EdgeFan& fan) {
+  const Vec3 &n1 = fan.near_normal, &n2 = fan.far_normal;
+  const double b1 = contact_on_plane(context.finger, context.pose, fan.point, n1).penetration_m;
+  const double b2 = contact_on_plane(context.finger, context.pose, fan.point, n2).penetration_m;
+  const double c = glm::dot(n1, n2), det = 1.0 - c * c, along1 = b1 - c * b2, along2 = b2 - c * b1;
   if (!(along1 > 0.0)) return b2 * n2;
   if (!(along2 > 0.0)) return b1 * n1;
   return (along1 * n1 + along2 * n2) / det;
 }
 
+/// How far the place is from being the finger's along the edge, times |point_f|: the way of the contact that is pushed
+/// out so, of a round finger that of its centre.
+double way_along(const ContactContext& context, const EdgeFan& fan, const Vec3& d) {
+  if (is_round(context.finger)) return glm::dot(d, fan.point_f);
+  const Vec3 way = way_out(context, fan);
+  if (way == Vec3(0.0)) return 0.0;
+  return glm::dot(contact_on_plane(context.finger, context.pose, fan.point, unit(way)).travel, fan.point_f);
+}
+
 /// The plane that pushes the finger out by `way`: through its own point that is furthest in, led back by that.
 void rest(ContactContext& context, const Vec3& way, int evaluations, IterationResult& result) {
   const double depth = std::sqrt(glm::dot(way, way));
-  const Vec3 normal = way / depth, &centre = context.pose.position;
-  const Vec3 point = centre + (depth - round_radius_m(context.finger)) * normal;
+  const Vec3 normal = way / depth;
+  const Vec3 furthest = is_round(context.finger) ? context.pose.position - round_radius_m(context.finger) * normal
+                                                 : support_point(context.finger, context.pose, normal);
+  const Vec3 point = furthest + way;
   result.plane.point = result.sample.point = point;
   result.plane.normal = result.sample.normal = normal;
   contact_on_plane(context.finger, context.pose, point, normal, result.contact);
@@ -39,12 +66,20 @@ void rest(ContactContext& context, const Vec3& way, int evaluations, IterationRe
   result.met_unstable = false;
 }
 
+/// From a point to the centre of a round finger; of others against the normal of the plane through it whose contact it
+/// is. Zero where that is nowhere.
+Vec3 seen_from_behind(const ContactContext& context, const Vec3& point) {
+  const Vec3 d = context.pose.position - point;
+  if (is_round(context.finger) || d == Vec3(0.0)) return d;
+  return -facing_normal(context.finger, context.pose, point, unit(-d), FacingSide::back);
+}
+
 /// Where the centre is behind every face around the vertex, and along none of its edges nearer than there.
 bool find_at_vertex(ContactContext& context, const SurfacePlace& vertex, int evaluations, IterationResult& result) {
   const ContactMesh& mesh = context.cache.mesh();
   const Vec3& point = mesh.position(vertex.triangle, vertex.side);
-  const Vec3 d = context.pose.position - point;
-  if (!(glm::dot(d, d) > 0.0)) return false;
+  const Vec3 d = seen_from_behind(context, point);
+  if (d == Vec3(0.0)) return false;
   bool rests = true, has_crease = false;
   context.cache.around(
       vertex.triangle, vertex.side, context.settings.normal_form, [&](const Vec3&) { return d; },
@@ -55,10 +90,11 @@ bool find_at_vertex(ContactContext& context, const SurfacePlace& vertex, int eva
         has_crease = true;
         rests = rests && fan.far.y < 0.0 && (f > 0.5 ? -1.0 : 1.0) * glm::dot(d, fan.point_f) <= 0.0;
       });
-  if (!rests || !has_crease) return false;
+  const Vec3 normal = unit(-d);
+  const double depth = contact_on_plane(context.finger, context.pose, point, normal).penetration_m;
+  if (!rests || !has_crease || !(depth > 0.0)) return false;
   result.plane.move_to(vertex);
-  const double off = std::sqrt(glm::dot(d, d));
-  rest(context, -(1.0 + round_radius_m(context.finger) / off) * d, evaluations, result);
+  rest(context, depth * normal, evaluations, result);
   return true;
 }
 
@@ -83,8 +119,11 @@ bool find_on_edge(ContactContext& context, const SurfacePlace& edge, bool along_
   for (int i = 1; i <= kSteps; ++i) {
     const EdgeFan& fan = context.cache.fan(edge.triangle, edge.side, f, context.settings.normal_form);
     const Vec3 d = context.pose.position - fan.point;
-    const double speed2 = glm::dot(fan.point_f, fan.point_f), along = glm::dot(d, fan.point_f);
+    const double speed2 = glm::dot(fan.point_f, fan.point_f);
     if (fan.convex() || !(speed2 > 0.0) || !(glm::dot(d, d) > 0.0)) return false;
+    const bool past_both = is_past_both(context, fan, d);
+    if (!past_both && !is_round(context.finger)) return false;
+    const double along = way_along(context, fan, d);
     const double to = std::clamp(f + along / speed2, 0.0, 1.0), step = (to - f) * std::sqrt(speed2);
     if (std::abs(step) > 0.1 * context.settings.tolerance_m) {
       f = to;
@@ -93,11 +132,10 @@ bool find_on_edge(ContactContext& context, const SurfacePlace& edge, bool along_
     if ((f == 0.0 && along < 0.0) || (f == 1.0 && along > 0.0))
       return along_others ? find_from_vertex(context, end_of(edge, f), i, result)
                           : find_at_vertex(context, end_of(edge, f), i, result);
-    const Vec2 turn = turn_of(fan, -d);
-    if (!in_hollow_fan(fan, turn)) return false;
-    const Vec3 way = way_out(d, round_radius_m(context.finger), fan.near_normal, fan.far_normal);
+    const Vec3 way = way_out(context, fan);
+    if (!past_both || way == Vec3(0.0)) return false;
     result.plane.move_to(place_on_edge(edge.triangle, edge.side, f));
-    result.plane.turn = turn;
+    result.plane.turn = turn_of(fan, way);
     rest(context, way, i, result);
     return true;
   }
@@ -109,7 +147,7 @@ bool find_from_vertex(ContactContext& context, const SurfacePlace& vertex, int e
   const ContactMesh& mesh = context.cache.mesh();
   if (!mesh.feature_corner(vertex.triangle, vertex.side)) return false;
   if (find_at_vertex(context, vertex, evaluations, result)) return true;
-  const Vec3 d = context.pose.position - mesh.position(vertex.triangle, vertex.side);
+  const Vec3 d = seen_from_behind(context, mesh.position(vertex.triangle, vertex.side));
   std::optional<SurfacePlace> crease;
   double most = 0.0;
   context.cache.around(
@@ -129,9 +167,27 @@ bool find_from_vertex(ContactContext& context, const SurfacePlace& vertex, int e
 }  // namespace
 
 bool find_in_hollow(ContactContext& context, const SurfacePlace& start, IterationResult& result) {
-  if (!is_round(context.finger)) return false;
   if (start.feature == Feature::edge) return find_on_edge(context, start, true, result);
   return start.feature == Feature::vertex && find_from_vertex(context, start, 1, result);
+}
+
+bool is_hollow(const ContactMesh& mesh, const SurfacePlace& place) {
+  if (place.feature == Feature::edge)
+    return mesh.edge_kind(place.triangle, place.side) == EdgeKind::crease &&
+           mesh.concave_crease(place.triangle, place.side);
+  if (place.feature != Feature::vertex) return false;
+  bool hollow = false;
+  around_vertex(mesh, place.triangle, place.side, [&](std::uint32_t t, std::uint32_t k) {
+    hollow = hollow || (mesh.edge_kind(t, k) == EdgeKind::crease && mesh.concave_crease(t, k));
+  });
+  return hollow;
+}
+
+std::array<SurfacePlace, 2> sides_of(const ContactMesh& mesh, const SurfacePlace& edge) {
+  const double f = edge_fraction(edge.side, edge.u, edge.v);
+  const EdgeLink other = mesh.across(edge.triangle, edge.side);
+  const Vec2 there = edge_point_uv(other.edge, 1.0 - f);
+  return {place_on_face(edge.triangle, edge.u, edge.v), place_on_face(other.triangle, there.x, there.y)};
 }
 
 SurfacePlace feature_at(const ContactMesh& mesh, std::uint32_t t, double u, double v) {

@@ -18,6 +18,9 @@
 namespace tangent {
 namespace {
 
+constexpr double kUnlimited = std::numeric_limits<double>::max();
+constexpr double kAnyDistance = std::numeric_limits<double>::infinity();
+
 SurfacePlace face_at(std::uint32_t triangle, double u, double v) {
   return place_on_face(triangle, u, std::min(v, 1.0 - u));
 }
@@ -81,7 +84,6 @@ double known_radius(const ContactContext& context, const TrackedPlane& kept) {
 /// A rank that the deepest contact can hardly exceed: that of the raw mesh's nearest triangle, with room for its bulge.
 /// What a search finds below it is what one without it would have found; where it finds nothing it was in vain.
 double likely_rank(ContactContext& context, const SearchStructures& search, double radius) {
-  constexpr double kUnlimited = std::numeric_limits<double>::max();
   if (!is_round(context.finger)) return kUnlimited;
   const Vec3& centre = context.pose.position;
   const NearestHit hit = search.nearest.nearest(centre, radius);
@@ -173,6 +175,7 @@ void seed_by_hierarchy(ContactContext& context, const SearchStructures& search, 
 /// triangles nearer than that, of which there are none as a rule, so the query ends early.
 bool implausible(ContactContext& context, const SearchStructures& search, const IterationResult& found, double rank) {
   if (!is_round(context.finger)) return false;
+  if (found.contact.height_m < 0.0 && is_hollow(context.cache.mesh(), found.plane)) return false;  // seen from inside
   const double bulge = patch_bulge(context.cache.patch(found.plane.triangle, context.settings.normal_form));
   const double nearer = rank / (1.0 + kImplausibleShare) - 2.0 * bulge;
   return nearer > 0.0 && search.nearest.nearest(context.pose.position, nearer);
@@ -197,15 +200,20 @@ void seed_by_distance(ContactContext& context, const SearchStructures& search, s
   }
 }
 
-/// Where the raw mesh's nearest point is on a hollow crease or corner, the contact that a centre behind both its sides
-/// has there.
+/// Where the raw mesh's nearest point is on a hollow crease or corner, the contact that a finger pressed into it has
+/// there. Nearest to the centre, of a finger that is not round to what it presses against the nearest place with.
 void seed_in_hollow(ContactContext& context, const SearchStructures& search, double radius, Selection& selection) {
-  if (!is_round(context.finger)) return;
-  const NearestHit hit = search.nearest.nearest(context.pose.position, radius);
+  const ContactMesh& mesh = context.cache.mesh();
+  if (!mesh.has_concave_crease()) return;
+  NearestHit hit = search.nearest.nearest(context.pose.position, radius);
   if (!hit) return;
+  if (!is_round(context.finger)) {
+    const auto n = mesh.normals(hit.triangle);
+    const Vec3 normal = unit((1.0 - hit.u - hit.v) * n[0] + hit.u * n[1] + hit.v * n[2]);
+    hit = search.nearest.nearest(support_point(context.finger, context.pose, normal), kAnyDistance);
+  }
   IterationResult r;
-  if (find_in_hollow(context, feature_at(context.cache.mesh(), hit.triangle, hit.u, hit.v), r))
-    selection.offer(context, r);
+  if (find_in_hollow(context, feature_at(mesh, hit.triangle, hit.u, hit.v), r)) selection.offer(context, r);
 }
 
 /// Where only unstable contacts were found: the stable ones beside the nearest of them.
@@ -267,7 +275,6 @@ SeedResult seed_contact(ContactContext& context, const SearchStructures& search,
     seed_by_distance(context, search, 1, known_radius(context, kept), context.settings.max_iterations, nullptr, false,
                      selection);
   } else {
-    constexpr double kUnlimited = std::numeric_limits<double>::max();
     const double most = in_vain ? kUnlimited : likely_rank(context, search, known_radius(context, kept));
     FailedStarts failed;
     // A first tick, or one after a leap, may take its time.

@@ -1,6 +1,6 @@
 // Inner edges and corners: a finger whose centre has come behind both sides is held as by a god-object.
 #include "core/contact/follow/hollow.h"
-#include "tests/core/scenes.h"
+#include "tests/core/inner_corner.h"
 
 using namespace tangent;
 using namespace tangent::test;
@@ -8,39 +8,6 @@ using namespace tangent::test;
 namespace {
 
 constexpr double kStiffness = 800.0;  // N/m, the default
-
-/// Two walls of 50 mm that meet in a crease along y, `opening` between them: the first faces up.
-struct InnerCorner {
-  double opening;
-  Vec3 first{0.0, 0.0, 1.0}, second, along_second;  ///< normals, and from the crease along the second wall
-
-  explicit InnerCorner(double angle)
-      : opening(angle),
-        second(std::sin(angle), 0.0, -std::cos(angle)),
-        along_second(std::cos(angle), 0.0, std::sin(angle)) {}
-
-  ScenePtr scene() const {
-    PolygonMesh mesh;
-    const Vec3 y(0.0, 0.03, 0.0), x(0.05, 0.0, 0.0), b = 0.05 * along_second;
-    mesh.positions = {-y, y, x - y, x + y, b - y, b + y};
-    mesh.add_face({0, 2, 3});
-    mesh.add_face({0, 3, 1});
-    mesh.add_face({0, 1, 5});
-    mesh.add_face({0, 5, 4});
-    return scene_of(mesh);
-  }
-
-  /// `depth` under the walls: along the first to the crease, round it, and on along the second, in steps of `step`.
-  std::vector<Vec3> way_under(double depth, double step) const {
-    std::vector<Vec3> way;
-    for (double s = 0.01; s > 0.0; s -= step) way.push_back(Vec3(s, 0.0, 0.0) - depth * first);
-    const double turn = 180.0 * kDegree - opening;
-    for (double a = 0.0; a < turn; a += step / depth) way.push_back(-depth * Vec3(std::sin(a), 0.0, std::cos(a)));
-    for (double s = 0.0; s < 0.01; s += step) way.push_back(s * along_second - depth * second);
-    for (Vec3& at : way) at.y = 0.004;
-    return way;
-  }
-};
 
 }  // namespace
 
