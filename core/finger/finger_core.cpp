@@ -139,6 +139,22 @@ double support_over_thickness(const Finger& finger, double longest_m, double sho
 
 }  // namespace
 
+NormalCone cone_of(std::span<const Vec3> normals) {
+  Vec3 sum(0.0);
+  for (const Vec3& n : normals) sum += n;
+  const double length2 = glm::dot(sum, sum);
+  if (length2 < 1e-6) return {};
+  NormalCone cone{sum / std::sqrt(length2), 1.0};
+  double least2 = 1.0;
+  for (const Vec3& n : normals) {
+    const double along = glm::dot(n, cone.axis), n2 = std::max(1e-300, glm::dot(n, n));
+    if (!(along > 0.0)) return {};
+    least2 = std::min(least2, along * along / n2);
+  }
+  cone.cos_half = std::sqrt(least2);
+  return cone;
+}
+
 FingerCore::FingerCore(const Finger& finger, const FingerPose& pose, bool turns)
     : centre_(pose.position), axes_m_(core_axes_m(finger)), rotation_(glm::mat3_cast(pose.orientation)), turns_(turns) {
   if (finger.shape != FingerShape::ellipsoid)

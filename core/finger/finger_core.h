@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace tangent {
 
@@ -31,6 +32,9 @@ struct NormalCone {
   Vec3 axis{0.0, 0.0, 1.0};
   double cos_half = -1.0;  ///< -1: every direction
 };
+
+/// The cone of the directions of some vectors, and of all sums of them, about their own sum.
+NormalCone cone_of(std::span<const Vec3> normals);
 
 /// A part of the surface by bounds: its points in a box, its normals in a cone.
 struct SurfaceBounds {

@@ -1,46 +1,25 @@
 #include "core/contact/prove/core_feature_proof.h"
 
+#include "core/contact/prove/core_crease_proof.h"
+#include "core/contact/prove/feature_parts.h"
 #include "core/mesh/vertex_ring.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 
 namespace tangent {
 namespace {
 
-constexpr std::size_t kMostNormals = 24;  // around a vertex
+/// A crease or corner of which nothing is known as a whole is halved so often, a corner until so much was looked at: a
+/// solve costs as much as ten such looks.
+constexpr int kCreaseHalvings = 3, kCornerHalvings = 6, kMostTests = 24;
 
-struct Normals {
-  std::array<Vec3, kMostNormals> all;
-  std::size_t count = 0;
-  bool complete = true;
-
-  void add(const Vec3& n) {
-    if (count == all.size()) complete = false;
-    if (complete) all[count++] = n;
-  }
-  NormalCone cone() const {
-    Vec3 sum(0.0);
-    for (const Vec3& n : std::span(all).first(count)) sum += n;
-    const double length2 = glm::dot(sum, sum);
-    if (!complete || length2 < 1e-6) return {};
-    NormalCone cone{sum / std::sqrt(length2), 1.0};
-    for (const Vec3& n : std::span(all).first(count))
-      cone.cos_half = std::min(cone.cos_half, glm::dot(n, cone.axis) / std::sqrt(glm::dot(n, n)));
-    return cone;
-  }
-};
-
-/// The three control normals along an edge, which runs from corner `edge` to the next.
-void add_along(const PnPatch& patch, std::uint32_t edge, Normals& normals) {
-  static constexpr ControlNormal kMiddle[3] = {n110, n011, n101};
-  normals.add(patch.normals[edge]);
-  normals.add(patch.normals[kMiddle[edge]]);
-  normals.add(patch.normals[(edge + 1) % 3]);
-}
+/// Of the margin that would be enough: what is excluded for that is not looked at for more.
+constexpr double kEnoughShare = 0.1;
 
 /// By how far the part is outside the core: a contact there has p(N) - S = lambda N with |lambda| above that. Nor can
 /// it be below -that where every plane of the part lies less deep in the finger; so the contact ranks behind it.
@@ -62,54 +41,51 @@ double margin_by_distance(const FingerCore& core, const SurfaceBounds& part, con
   return std::max(0.0, std::min(clear, bound.way_to(core.reach_m() - core.ball_m() + apart)));
 }
 
+/// By how far the part is outside the whole finger: as far as that is over the reach the finger may go.
+double margin_by_rank(const FingerCore& core, const SurfaceBounds& part, const RankBound& bound) {
+  const double outside = core.rank_outside(core.apart_m(part.middle, part.half));
+  return std::min(outside - core.reach_m(), bound.way_to(outside));
+}
+
+bool is_enough(double margin, double enough_m) { return margin > 0.0 && margin >= enough_m; }
+
 /// Once it is `enough_m`, no more is asked for.
 double margin_of(const FingerCore& core, const SurfaceBounds& part, const RankBound& bound, double enough_m) {
-  const double apart = core.apart_m(part.middle, part.half);
-  const double outside = core.rank_outside(apart);  // as far as it is over the reach the finger may go
-  double margin = std::min(outside - core.reach_m(), bound.way_to(outside));
-  const auto is_enough = [&] { return margin > 0.0 && margin >= enough_m; };
-  if (!is_enough()) margin = std::max(margin, touch_margin(core, part, enough_m));
-  if (!is_enough()) margin = std::max(margin, margin_by_distance(core, part, bound));
+  double margin = margin_by_rank(core, part, bound);
+  if (!is_enough(margin, enough_m)) margin = std::max(margin, touch_margin(core, part, enough_m));
+  if (!is_enough(margin, enough_m)) margin = std::max(margin, margin_by_distance(core, part, bound));
   return margin;
 }
 
-/// A crease by control points of its curve, then control normals of its near and of its far side.
-struct Crease {
-  std::array<Vec3, 4> curve;
-  Normals normals;
-};
-
-Crease crease_of(PatchCache& cache, NormalForm form, std::uint32_t t, std::uint32_t k) {
-  static constexpr ControlPoint kNear[3][2] = {{b210, b120}, {b021, b012}, {b102, b201}};
-  const EdgeLink other = cache.mesh().across(t, k);
-  Crease crease;
-  const PnPatch& near = cache.patch(t, form);
-  crease.curve = {near.control_point(k), near.control_point(kNear[k][0]), near.control_point(kNear[k][1]),
-                  near.control_point((k + 1) % 3)};
-  add_along(near, k, crease.normals);
-  add_along(cache.patch(other.triangle, form), other.edge, crease.normals);
-  return crease;
-}
-
-/// Whether the normals of its two sides part nowhere along it: no plane touches it from outside. Along the edge,
-/// counterclockwise about its near side, the far normal leans to that side: (T x n).m is negative, a product of Bezier
-/// forms.
-bool is_hollow(const Crease& crease) {
-  for (std::size_t j = 0; j < 3; ++j) {
-    const Vec3 along = crease.curve[j + 1] - crease.curve[j];
-    for (std::size_t near = 0; near < 3; ++near) {
-      const Vec3 away = glm::cross(along, crease.normals.all[near]);
-      for (std::size_t far = 3; far < 6; ++far)
-        if (!(glm::dot(away, crease.normals.all[far]) < 0.0)) return false;
-    }
+/// Halved along the edge while nothing is known.
+double margin_of_crease(const FingerCore& core, const CreasePart& crease, const RankBound& bound, double enough_m,
+                        int halvings, int& tests) {
+  ++tests;
+  const SurfaceBounds bounds = crease.bounds();
+  double margin = margin_by_rank(core, bounds, bound);
+  if (!is_enough(margin, enough_m)) margin = std::max(margin, crease_margin(core, crease, enough_m, tests));
+  if (!is_enough(margin, kEnoughShare * enough_m)) margin = std::max(margin, margin_of(core, bounds, bound, enough_m));
+  if (margin > 0.0 || halvings == 0 || !crease.is_curved()) return margin;
+  double least = std::numeric_limits<double>::max();
+  for (const CreasePart& half : crease.halves()) {
+    least = std::min(least, margin_of_crease(core, half, bound, std::min(enough_m, least), halvings - 1, tests));
+    if (!(least > 0.0)) return 0.0;
   }
-  return true;
+  return least;
 }
 
-double edge_margin(const Crease& crease, const FingerCore& core, const RankBound& bound, double enough_m) {
-  Box box;
-  for (const Vec3& p : crease.curve) box.include(p);
-  return margin_of(core, {box.centre(), 0.5 * box.size(), crease.normals.cone()}, bound, enough_m);
+/// The least of the margins of a triangle of normals, halved where nothing is known; 0 where one may be a contact's.
+double margin_of_corner(const FingerCore& core, const VertexPart& part, const RankBound& bound, double enough_m,
+                        int halvings, int& tests) {
+  ++tests;
+  const double margin = margin_of(core, part.bounds(), bound, enough_m);
+  if (margin > 0.0 || halvings == 0 || tests >= kMostTests) return margin;
+  double least = std::numeric_limits<double>::max();
+  for (const VertexPart& half : part.halves()) {
+    least = std::min(least, margin_of_corner(core, half, bound, std::min(enough_m, least), halvings - 1, tests));
+    if (!(least > 0.0)) return 0.0;
+  }
+  return least;
 }
 
 /// Whether all creases that meet at a vertex are hollow: none can rest on it.
@@ -120,25 +96,35 @@ bool is_hollow_vertex(ContactContext& context, std::uint32_t t, std::uint32_t co
     const EdgeKind kind = mesh.edge_kind(at, k);
     hollow = hollow && mesh.edge_kind(at, (k + 2) % 3) != EdgeKind::boundary &&
              (kind == EdgeKind::smooth ||
-              (kind == EdgeKind::crease && is_hollow(crease_of(context.cache, context.settings.normal_form, at, k))));
+              (kind == EdgeKind::crease && is_hollow(crease_part(context.cache, context.settings.normal_form, at, k))));
   });
   return hollow;
 }
 
 /// Boundaries there have none.
 double vertex_margin(ContactContext& context, const FingerCore& core, std::uint32_t t, std::uint32_t corner,
-                     const RankBound& bound, double enough_m) {
+                     const RankBound& bound, double enough_m, int& looks) {
   const ContactMesh& mesh = context.cache.mesh();
-  if (mesh.crowded_vertex(mesh.vertex(t, corner))) return 0.0;
-  Normals normals;
-  around_vertex(mesh, t, corner, [&](std::uint32_t at, std::uint32_t k) {
-    normals.add(mesh.normal(at, k));
-    if (mesh.edge_kind(at, k) == EdgeKind::boundary || mesh.edge_kind(at, (k + 2) % 3) == EdgeKind::boundary)
-      normals.complete = false;
-  });
-  const double margin = margin_of(core, {mesh.position(t, corner), Vec3(0.0), normals.cone()}, bound, enough_m);
-  if (margin > 0.0 || !normals.complete || !is_hollow_vertex(context, t, corner)) return margin;
-  return std::numeric_limits<double>::max();
+  const std::optional<VertexNormals> normals = VertexNormals::around(mesh, t, corner);
+  const NormalCone cone = normals ? normals->cone() : NormalCone{};
+  const SurfaceBounds bounds{mesh.position(t, corner), Vec3(0.0), cone};
+  const std::optional<CreasePart> arc = normals ? normals->arc() : std::nullopt;
+  ++looks;
+  double margin = margin_by_rank(core, bounds, bound);
+  if (arc && !is_enough(margin, enough_m)) margin = std::max(margin, crease_margin(core, *arc, enough_m, looks));
+  if (!is_enough(margin, arc ? kEnoughShare * enough_m : enough_m))
+    margin = std::max(margin, margin_of(core, bounds, bound, enough_m));
+  if (margin > 0.0 || !normals) return margin;
+  if (is_hollow_vertex(context, t, corner)) return std::numeric_limits<double>::max();
+  if (arc) return margin;
+  std::array<VertexPart, VertexNormals::kMost> parts;
+  const std::size_t count = normals->parts(parts);
+  if (count > 0) margin = std::numeric_limits<double>::max();
+  for (const VertexPart& part : std::span(parts).first(count)) {
+    margin = std::min(margin, margin_of_corner(core, part, bound, std::min(enough_m, margin), kCornerHalvings, looks));
+    if (!(margin > 0.0)) return 0.0;
+  }
+  return margin;
 }
 
 }  // namespace
@@ -153,20 +139,26 @@ FeatureExclusion exclude_features_by_core(ContactContext& context, const FingerC
   const auto ask = [&](std::uint64_t key, auto margin) {
     if (memory && memory->knows(key)) return;
     result.asked[result.asked_count++] = key;
-    result.margin_m = std::min(result.margin_m, margin());
+    result.margin_m = std::min(result.margin_m, margin(result.tests));
     if (!(result.margin_m > 0.0)) result.unproved = key;
   };
   for (std::uint32_t k = 0; k < 3 && result.margin_m > 0.0; ++k) {
     if (!features.has_side(k) || mesh.edge_kind(t, k) == EdgeKind::smooth) continue;
-    ask(edge_key(mesh, t, k), [&] {
+    ask(edge_key(mesh, t, k), [&](int& tests) {
       if (mesh.edge_kind(t, k) == EdgeKind::boundary) return 0.0;
-      const Crease crease = crease_of(context.cache, context.settings.normal_form, t, k);
-      return is_hollow(crease) ? std::numeric_limits<double>::max() : edge_margin(crease, core, bound, enough_m);
+      const CreasePart crease = crease_part(context.cache, context.settings.normal_form, t, k);
+      if (is_hollow(crease)) return std::numeric_limits<double>::max();
+      return margin_of_crease(core, crease, bound, enough_m, kCreaseHalvings, tests);
     });
   }
   for (std::uint32_t k = 0; k < 3 && result.margin_m > 0.0; ++k)
     if (features.has_corner(k) && mesh.feature_corner(t, k))
-      ask(vertex_key(mesh, t, k), [&] { return vertex_margin(context, core, t, k, bound, enough_m); });
+      ask(vertex_key(mesh, t, k), [&](int& tests) {
+        int looks = 0;
+        const double margin = vertex_margin(context, core, t, k, bound, enough_m, looks);
+        tests += looks;
+        return margin;
+      });
   return result;
 }
 

@@ -19,6 +19,7 @@ struct FeatureExclusion {
   std::uint64_t unproved = PatchExclusion::kNoFeature;  ///< where that is 0: the first of which nothing is proved
   std::array<std::uint64_t, 6> asked{};                 ///< what FeatureMemory calls them
   std::size_t asked_count = 0;
+  int tests = 0;  ///< parts looked at: their cost
 };
 
 /// Asks the creases and boundaries and their ends for contacts of a rank under `bound`, but for those that `memory`

@@ -31,18 +31,6 @@ constexpr double kPieceShare = 0.1;
 /// thinner than the flank's normals are apart: there a solve tells more, and costs as much as six pieces.
 constexpr int kPieceDepth = 6, kPieceDepthThin = 3, kPieces = 40;
 
-/// The cone of the directions of some vectors about their sum.
-NormalCone cone_of(std::span<const Vec3> normals) {
-  Vec3 sum(0.0);
-  for (const Vec3& n : normals) sum += n;
-  const double length2 = glm::dot(sum, sum);
-  if (length2 < 1e-6) return {};
-  NormalCone cone{sum / std::sqrt(length2), 1.0};
-  for (const Vec3& n : normals)
-    cone.cos_half = std::min(cone.cos_half, glm::dot(n, cone.axis) / std::sqrt(std::max(1e-300, glm::dot(n, n))));
-  return cone;
-}
-
 SurfaceBounds bounds_of(std::span<const Vec3> points, const NormalCone& cone) {
   Box box;
   for (const Vec3& p : points) box.include(p);
@@ -232,13 +220,13 @@ PatchExclusion exclude_by_core(ContactContext& context, const FingerCore& core, 
   if (!(features.margin_m > 0.0)) {
     PatchExclusion nothing = no_proof(context, core, t);
     nothing.feature = features.unproved;
-    nothing.tests = static_cast<int>(features.asked_count);
+    nothing.tests = features.tests;
     return nothing;
   }
   PatchExclusion proof = exclude_face_by_core(context, core, t, bound, enough_m);
   if (!proof.possible && proof.margin_m > 0.0) remember(memory, features);
   proof.margin_m = std::min(proof.margin_m, features.margin_m);
-  proof.tests += static_cast<int>(features.asked_count);
+  proof.tests += features.tests;
   return proof;
 }
 

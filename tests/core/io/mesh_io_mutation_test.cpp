@@ -14,7 +14,7 @@ using namespace tangent;
 
 namespace {
 
-constexpr std::array kSeeds = {"a.obj", "a.ply", "b.ply", "c.ply", "a.stl", "b.stl", "a.off", "b.off"};
+constexpr std::array kSeedFiles = {"a.obj", "a.ply", "b.ply", "c.ply", "a.stl", "b.stl", "a.off", "b.off"};
 
 /// Runs the reader on bytes in memory, allocated exactly, so that a sanitizer detects any access outside.
 Result<PolygonMesh> read_bytes(const std::string& name, const std::string& content) {
@@ -136,7 +136,7 @@ void check_consistent(const PolygonMesh& mesh, std::size_t file_size) {
 }  // namespace
 
 TEST_CASE("damaged files of every format give a consistent mesh or an error") {
-  for (const std::string name : kSeeds) {
+  for (const std::string name : kSeedFiles) {
     CAPTURE(name);
     const std::string intact = seed(name);
     const Result<PolygonMesh> good = read_bytes(name, intact);
@@ -163,7 +163,7 @@ TEST_CASE("damaged files of every format give a consistent mesh or an error") {
 }
 
 TEST_CASE("a file cut short anywhere gives a consistent mesh or an error") {
-  for (const std::string name : kSeeds) {
+  for (const std::string name : kSeedFiles) {
     CAPTURE(name);
     const std::string intact = seed(name);
     for (std::size_t size = 0; size < intact.size(); ++size) {

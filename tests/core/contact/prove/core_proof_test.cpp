@@ -28,13 +28,6 @@ PolygonMesh bent_triangle(Random& random, double spread) {
   return one_triangle(p, n);
 }
 
-/// The pose at which the finger touches the plane through `point` with this normal there, so deep.
-FingerPose touching(const Finger& finger, const Vec3& point, const Vec3& normal, double depth_m, Random& random) {
-  FingerPose pose{Vec3(0.0), random.orientation()};
-  pose.position = point - depth_m * normal - support_point(finger, pose, normal);
-  return pose;
-}
-
 /// A pose from which the finger comes to that one, and how far that is.
 FingerPose before(const Finger& finger, const FingerPose& there, double way_m, Random& random, double& gone_m) {
   const double turns = random.in(0.0, 1.0);
@@ -70,7 +63,7 @@ double share_proved(const ContactMesh& mesh, FingerShape shape, int count, doubl
   int proved = 0, wrong = 0;
   for (int i = 0; i < count; ++i) {
     const auto [point, normal] = make(prover.cache);
-    const FingerPose there = touching(prover.finger, point, normal, random.in(-1e-3, 1e-3), random);
+    const FingerPose there = resting_on(prover.finger, point, normal, random.in(-1e-3, 1e-3), random);
     double gone = 0.0;
     const FingerPose here = before(prover.finger, there, random.in(0.0, farthest_m), random, gone);
     const double margin = prover.margin(here, prove);
@@ -260,7 +253,7 @@ TEST_CASE("where a face holds a contact of an ellipsoid or a capsule its rank is
       const Vec2 at = random.barycentric();
       SurfaceSample s;
       cache.sample(0, NormalForm::bernstein, at.x, at.y, s);
-      const FingerPose pose = touching(prover.finger, s.point, s.normal, random.in(-1e-3, 1e-3), random);
+      const FingerPose pose = resting_on(prover.finger, s.point, s.normal, random.in(-1e-3, 1e-3), random);
       const FingerCore core(prover.finger, pose);
       ContactContext context{cache, prover.settings, prover.finger, pose, Vec3(0.0)};
       context.core = &core;

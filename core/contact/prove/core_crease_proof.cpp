@@ -1,0 +1,188 @@
+#include "core/contact/prove/core_crease_proof.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tangent {
+namespace {
+
+/// Sine of the angle by which an edge turns, and by which its normals lean along it, at most, to be taken for straight.
+constexpr double kMostTurn = 0.5, kMostLean = 0.3;
+constexpr double kPerShare = 1.5;  // 1 / cos of half an angle that is acute, and a little more
+constexpr int kHalvings = 5;       // of a fan
+
+/// The direction of an edge, and the sine of the angle by which it is off that.
+struct Along {
+  Vec3 axis;
+  double sine;
+};
+Along along(const CreasePart& part) {
+  const Vec3 chord = part.curve[3] - part.curve[0];
+  if (chord == Vec3(0.0)) return {unit(glm::cross(part.near[0], part.far[0])), 0.0};
+  const std::array<Vec3, 3> speed{part.curve[1] - part.curve[0], part.curve[2] - part.curve[1],
+                                  part.curve[3] - part.curve[2]};
+  Along a{unit(chord), 0.0};
+  for (const Vec3& x : speed) {
+    const Vec3 across = glm::cross(x, a.axis);
+    const double x2 = glm::dot(x, x);
+    if (!(glm::dot(x, chord) > 0.0)) return {a.axis, 1.0};
+    a.sine = std::max(a.sine, std::sqrt(glm::dot(across, across) / x2));
+  }
+  return a;
+}
+
+double chord_of(double cosine) { return std::sqrt(std::max(0.0, 2.0 - 2.0 * cosine)); }
+
+/// How far p(N) moves at most while N turns by a chord of that length, |A N| no less than that all along.
+double slide_within(const FingerCore& core, double least_length_m, double chord) {
+  constexpr double kPerChord = 1.03;  // the angle, of chords up to a half
+  return std::min(2.0 * core.longest_m(), core.largest_radius(least_length_m) * kPerChord * chord);
+}
+
+/// The core's support for the planes at one share.
+struct Pull {
+  std::array<Vec3, 3> normals;
+  bool known = false;
+  double wide = 0.0;      ///< by how much the normals are off their middle one
+  CoreSupport support{};  ///< for that
+  double aside_m = 0.0;  ///< how far it is from the middle of the edge along the turn from the near side to the far one
+  double room_m = 0.0;   ///< by how much that differs elsewhere on the edge, for its normals and turns, at most
+  double half_width_m = 0.0, least_length_m = 0.0;
+  double height_m = 0.0;  ///< of the core over the planes, at least
+
+  Pull(const FingerCore& core, const CreasePart& part, const SurfaceBounds& bounds, const Along& edge, double share)
+      : normals(part.normals_at(share)) {
+    const NormalCone cone = cone_of(normals);
+    const Vec3 out = glm::cross(edge.axis, cone.axis);
+    const double length = std::sqrt(glm::dot(out, out));
+    wide = chord_of(cone.cos_half) + (share != 0.0 && share != 1.0 ? part.lean_rad : 0.0);
+    known = wide < kMostWide && length > 0.5;
+    if (!known) return;
+    const Vec3 t = out / length;
+    support = core.support(cone.axis);
+    const Vec3 away = support.point - bounds.middle;
+    aside_m = glm::dot(away, t);
+    height_m = glm::dot(away, cone.axis) - glm::dot(bounds.half, glm::abs(cone.axis));
+    room_m = glm::dot(bounds.half, glm::abs(t));
+    half_width_m = core.half_width(t);
+    least_length_m = support.length;
+    const double off = 2.0 * (wide + chord_of(std::sqrt(1.0 - edge.sine * edge.sine))) / (length + 0.9);
+    if (!(off > 0.0)) return;
+    least_length_m -= core.longest_m() * wide;
+    half_width_m = core.longest_m();
+    const double moves = slide_within(core, least_length_m, wide), farthest = std::sqrt(glm::dot(away, away));
+    room_m += moves + off * (farthest + bounds.radius_m + moves);
+    height_m -= wide * (farthest + bounds.radius_m);  // the core lies higher over other planes than this support
+  }
+
+  /// How far the finger may go until a contact could come up with a normal from here on to `last`, the other end of a
+  /// range of the fan; `sign` -1: the far one.
+  double margin(const FingerCore& core, double sign, const Pull& last, double lean_rad) const {
+    if (!known) return 0.0;
+    double cosine = 1.0;
+    for (const Vec3& n : normals)
+      for (const Vec3& m : last.normals)
+        cosine = std::min(cosine, glm::dot(n, m) / std::sqrt(glm::dot(n, n) * glm::dot(m, m)));
+    if (lean_rad > 0.0) cosine -= 2.0 * lean_rad;
+    if (!(cosine > kLeastCosine)) return 0.0;
+    const double tangent = std::sqrt(1.0 - cosine * cosine) / cosine;
+    const double room = sign * aside_m - room_m + std::min(0.0, height_m) * tangent;
+    if (!(room > 0.0)) return 0.0;
+    const double share = room / (1.0 + tangent);  // the height changes by no more than the way
+    return std::min(share, core.way_within(half_width_m, least_length_m, share));
+  }
+
+ private:
+  static constexpr double kLeastCosine = 0.1, kMostWide = 0.5;
+};
+
+/// How far the finger may go until the supports for the normals between two could lie beside the part. While N runs
+/// over an arc, g (finger_core.h) does, and along the edge the supports lie off the centre by -(A T).g, a sinusoid.
+double margin_along(const FingerCore& core, const CreasePart& part, const SurfaceBounds& bounds, const Along& edge,
+                    const Pull& first, const Pull& last) {
+  if (!first.known || !last.known) return 0.0;
+  const Vec3 v = core.scaled(edge.axis), &g = first.support.direction, &h = last.support.direction;
+  const double a = glm::dot(v, g), b = glm::dot(v, h), c = glm::dot(g, h), sine2 = 1.0 - c * c;
+  double low = std::min(a, b), high = std::max(a, b);
+  if (sine2 > 1e-12 && (b - c * a) * (a - c * b) > 0.0) {  // it turns in between
+    const double most = std::sqrt(std::max(0.0, (a * a + b * b - 2.0 * a * b * c) / sine2));
+    (b > c * a ? high : low) = b > c * a ? std::max(high, most) : std::min(low, -most);
+  }
+  // |A N| over the arc, by the chord, which lies within the unit sphere.
+  const Vec3 from = first.support.length * g, way = last.support.length * h - from;
+  const double way2 = glm::dot(way, way), at = way2 > 0.0 ? std::clamp(-glm::dot(from, way) / way2, 0.0, 1.0) : 0.0;
+  const Vec3 nearest = from + at * way;
+  const double wide = kPerShare * std::max(first.wide, last.wide) + part.lean_rad;
+  const double least_length = std::sqrt(glm::dot(nearest, nearest)) - core.longest_m() * wide;
+  const double along = glm::dot(core.centre() - bounds.middle, edge.axis);
+  const Vec3 to_core = core.centre() - bounds.middle;
+  double room = glm::dot(bounds.half, glm::abs(edge.axis));
+  if (wide > 0.0) room += slide_within(core, least_length, wide);
+  const double leans = part.lean + edge.sine;
+  if (leans > 0.0) room += leans * (std::sqrt(glm::dot(to_core, to_core)) + core.longest_m() + bounds.radius_m);
+  const double miss = std::max(along - high, low - along) - room;
+  return core.way_within(core.half_width(edge.axis), least_length, miss);
+}
+
+/// Of a crease whose fan is halved while nothing is known of a range.
+class FanRanges {
+ public:
+  FanRanges(const FingerCore& core, const CreasePart& crease, const Along& edge, double enough_m)
+      : core_(core), crease_(crease), edge_(edge), bounds_(crease.bounds()), enough_m_(enough_m) {}
+
+  Pull pull_at(double share) {
+    ++tests_;
+    return Pull(core_, crease_, bounds_, edge_, share);
+  }
+  double margin(double from, double to, const Pull& first, const Pull& last, int halvings) {
+    const double drawn =
+        std::max(first.margin(core_, -1.0, last, crease_.lean_rad), last.margin(core_, 1.0, first, crease_.lean_rad));
+    if (is_enough(drawn)) return drawn;
+    const double margin_here = std::max(drawn, margin_along(core_, crease_, bounds_, edge_, first, last));
+    if (is_enough(margin_here) || halvings == 0 || tests_ >= kMostTests) return margin_here;
+    const double middle = 0.5 * (from + to);
+    const Pull pull = pull_at(middle);
+    // The likelier half first.
+    const bool far = pull.aside_m > 0.0;
+    const auto half = [&](bool second) {
+      return second ? margin(middle, to, pull, last, halvings - 1) : margin(from, middle, first, pull, halvings - 1);
+    };
+    const double one = half(far);
+    return one > margin_here ? std::max(margin_here, std::min(one, half(!far))) : margin_here;
+  }
+  int tests() const { return tests_; }
+
+ private:
+  static constexpr int kMostTests = 24;
+  /// A range excluded for less is not halved for more.
+  static constexpr double kShare = 0.1;
+  bool is_enough(double margin) const { return margin > 0.0 && margin >= kShare * enough_m_; }
+
+  const FingerCore& core_;
+  const CreasePart& crease_;
+  const Along& edge_;
+  const SurfaceBounds bounds_;
+  double enough_m_;
+  int tests_ = 0;
+};
+
+}  // namespace
+
+// At a contact with normal N the whole core lies over N's plane through p(N) = S + lambda N. Take another normal n of
+// the fan, at an angle a below a right one, with e the direction of the turn from n to N and p the core's support for
+// n, at a height h over n's plane through S. No point of the core lies lower along n: h <= lambda cos a. And p lies
+// over the contact's plane: h cos a + (p - S).e sin a >= lambda. So (p - S).e >= h tan a; where it is less, to the near
+// side, and below 0, there is no contact from n on to N. That halves the fan until what is left are turns that may have
+// one, of which the place along the edge tells.
+double crease_margin(const FingerCore& core, const CreasePart& crease, double enough_m, int& tests) {
+  const Along edge = along(crease);
+  if (!(edge.sine < kMostTurn) || !(crease.lean < kMostLean)) return 0.0;
+  FanRanges ranges(core, crease, edge, enough_m);
+  const Pull first = ranges.pull_at(0.0), last = ranges.pull_at(1.0);
+  const double margin = ranges.margin(0.0, 1.0, first, last, kHalvings);
+  tests += ranges.tests();
+  return margin;
+}
+
+}  // namespace tangent

@@ -1,0 +1,216 @@
+#include "core/contact/prove/feature_parts.h"
+
+#include "core/mesh/vertex_ring.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+namespace tangent {
+namespace {
+
+/// Sine of the lean along the edge: more than that is not bounded.
+constexpr double kBoundedLean = 0.3, kPerSine = 1.02;
+
+/// The three control normals along a side of a patch, Bernstein coefficients, from corner `edge` to the next.
+std::array<Vec3, 3> normals_along(const PnPatch& patch, std::uint32_t edge) {
+  static constexpr ControlNormal kMiddle[3] = {n110, n011, n101};
+  return {patch.normals[edge], 0.5 * patch.mixed_weight * patch.normals[kMiddle[edge]], patch.normals[(edge + 1) % 3]};
+}
+
+/// Sine of the angle by which the normals lean along the curve, at most: N.S' over its length, a product of Bezier
+/// forms. 1: no bound.
+double lean_along(const std::array<Vec3, 4>& curve, const std::array<Vec3, 3>& n) {
+  const std::array<Vec3, 3> speed{curve[1] - curve[0], curve[2] - curve[1], curve[3] - curve[2]};
+  const std::array<double, 5> lean{
+      glm::dot(n[0], speed[0]), 0.5 * (glm::dot(n[0], speed[1]) + glm::dot(n[1], speed[0])),
+      (glm::dot(n[0], speed[2]) + 4.0 * glm::dot(n[1], speed[1]) + glm::dot(n[2], speed[0])) / 6.0,
+      0.5 * (glm::dot(n[1], speed[2]) + glm::dot(n[2], speed[1])), glm::dot(n[2], speed[2])};
+  double most = 0.0;
+  for (const double x : lean) most = std::max(most, std::abs(x));
+  const Vec3 chord = curve[3] - curve[0], axis = n[0] + n[2];
+  double slowest = std::numeric_limits<double>::max(), shortest = slowest;
+  for (const Vec3& x : speed) slowest = std::min(slowest, glm::dot(x, chord));
+  for (const Vec3& x : n) shortest = std::min(shortest, glm::dot(x, axis));
+  if (!(slowest > 0.0) || !(shortest > 0.0)) return 1.0;
+  return most * std::sqrt(glm::dot(chord, chord) * glm::dot(axis, axis)) / (slowest * shortest);
+}
+
+/// A plane of the fan leans between as much as the two sides do; n + m, over its length, up to 1 / cos of half the
+/// angle between them as much.
+void bound_lean(CreasePart& crease) {
+  crease.lean = std::max(lean_along(crease.curve, crease.near), lean_along(crease.curve, crease.far));
+  if (crease.lean == 0.0) return;
+  double least = 1.0;
+  for (const Vec3& n : crease.near)
+    for (const Vec3& m : crease.far)
+      least = std::min(least, glm::dot(n, m) / std::sqrt(std::max(1e-300, glm::dot(n, n) * glm::dot(m, m))));
+  const double half = std::sqrt(std::max(0.0, 0.5 * (1.0 + least)));
+  const bool bounded = crease.lean < kBoundedLean * half;
+  crease.lean_rad = bounded ? kPerSine * crease.lean * (1.0 + 1.0 / half) : std::numeric_limits<double>::infinity();
+}
+
+NormalCone widened(const NormalCone& cone, double rad) {
+  if (rad == 0.0 || !(cone.cos_half > 0.0)) return cone;
+  if (!(rad < 1.0)) return {};
+  const double sine = std::sqrt(std::max(0.0, 1.0 - cone.cos_half * cone.cos_half));
+  return {cone.axis, cone.cos_half * std::cos(rad) - sine * std::sin(rad)};
+}
+
+template <std::size_t N>
+std::pair<std::array<Vec3, N>, std::array<Vec3, N>> halved(std::array<Vec3, N> b) {
+  std::array<Vec3, N> first, second;
+  for (std::size_t i = 0; i < N; ++i) {
+    first[i] = b[0];
+    second[N - 1 - i] = b[N - 1 - i];
+    for (std::size_t j = 0; j + 1 + i < N; ++j) b[j] = 0.5 * (b[j] + b[j + 1]);
+  }
+  return {first, second};
+}
+
+}  // namespace
+
+std::array<Vec3, 3> CreasePart::normals_at(double share) const {
+  std::array<Vec3, 3> n;
+  for (std::size_t i = 0; i < n.size(); ++i) n[i] = (1.0 - share) * near[i] + share * far[i];
+  return n;
+}
+
+SurfaceBounds CreasePart::bounds() const {
+  Box box;
+  for (const Vec3& p : curve) box.include(p);
+  const std::array<Vec3, 6> normals{near[0], near[1], near[2], far[0], far[1], far[2]};
+  return {box.centre(), 0.5 * box.size(), widened(cone_of(normals), lean_rad)};
+}
+
+bool CreasePart::is_curved() const {
+  const auto is_even = [](const std::array<Vec3, 3>& n) { return n[0] == n[1] && n[1] == n[2]; };
+  return !is_even(near) || !is_even(far);
+}
+
+std::array<CreasePart, 2> CreasePart::halves() const {
+  std::array<CreasePart, 2> half{*this, *this};
+  std::tie(half[0].curve, half[1].curve) = halved(curve);
+  std::tie(half[0].near, half[1].near) = halved(near);
+  std::tie(half[0].far, half[1].far) = halved(far);
+  return half;
+}
+
+CreasePart crease_part(PatchCache& cache, NormalForm form, std::uint32_t t, std::uint32_t side) {
+  static constexpr ControlPoint kNear[3][2] = {{b210, b120}, {b021, b012}, {b102, b201}};
+  const EdgeLink other = cache.mesh().across(t, side);
+  CreasePart crease;
+  {
+    const PnPatch& near = cache.patch(t, form);
+    crease.curve = {near.control_point(side), near.control_point(kNear[side][0]), near.control_point(kNear[side][1]),
+                    near.control_point((side + 1) % 3)};
+    crease.near = normals_along(near, side);
+  }
+  crease.far = normals_along(cache.patch(other.triangle, form), other.edge);
+  std::swap(crease.far[0], crease.far[2]);
+  bound_lean(crease);
+  return crease;
+}
+
+// Along the edge, counterclockwise about its near side, the far normal leans to that side: (T x n).m is negative, a
+// product of Bezier forms.
+bool is_hollow(const CreasePart& crease) {
+  for (std::size_t j = 0; j < 3; ++j) {
+    const Vec3 along = crease.curve[j + 1] - crease.curve[j];
+    for (const Vec3& n : crease.near) {
+      const Vec3 away = glm::cross(along, n);
+      for (const Vec3& m : crease.far)
+        if (!(glm::dot(away, m) < 0.0)) return false;
+    }
+  }
+  return true;
+}
+
+std::array<VertexPart, 2> VertexPart::halves() const {
+  std::size_t longest = 0;
+  double most = -1.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 d = normals[(k + 1) % 3] - normals[k];
+    if (glm::dot(d, d) > most) {
+      most = glm::dot(d, d);
+      longest = k;
+    }
+  }
+  const Vec3 &a = normals[longest], &b = normals[(longest + 1) % 3], &c = normals[(longest + 2) % 3];
+  const Vec3 middle = unit(a + b);
+  const bool arc = c == a || c == b;
+  return {VertexPart{point, {a, middle, arc ? middle : c}}, VertexPart{point, {middle, b, arc ? b : c}}};
+}
+
+std::optional<VertexNormals> VertexNormals::around(const ContactMesh& mesh, std::uint32_t t, std::uint32_t corner) {
+  if (mesh.crowded_vertex(mesh.vertex(t, corner))) return std::nullopt;
+  VertexNormals result;
+  result.point_ = mesh.position(t, corner);
+  bool complete = true;
+  around_vertex(mesh, t, corner, [&](std::uint32_t at, std::uint32_t k) {
+    if (mesh.edge_kind(at, k) == EdgeKind::boundary || mesh.edge_kind(at, (k + 2) % 3) == EdgeKind::boundary ||
+        result.count_ == kMost)
+      complete = false;
+    if (!complete) return;
+    const Vec3& n = mesh.normal(at, k);
+    const auto known = std::span(result.normals_).first(result.count_);
+    if (std::find(known.begin(), known.end(), n) == known.end()) result.normals_[result.count_++] = n;
+  });
+  if (!complete) return std::nullopt;
+  result.cone_ = cone_of(std::span(result.normals_).first(result.count_));
+  return result;
+}
+
+std::optional<CreasePart> VertexNormals::arc() const {
+  if (count_ != 2 || !(cone_.cos_half > 1e-3)) return std::nullopt;
+  CreasePart part;
+  part.curve.fill(point_);
+  part.near.fill(normals_[0]);
+  part.far.fill(normals_[1]);
+  return part;
+}
+
+// Seen from the cone's axis, on a plane across it, they are a convex polygon; its corners by Andrew's chain.
+std::size_t VertexNormals::parts(std::array<VertexPart, kMost>& parts) const {
+  if (!(cone_.cos_half > 1e-3)) return 0;
+  const Vec3& axis = cone_.axis;
+  const Vec3 e1 = unit(glm::cross(axis, std::abs(axis.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
+  const Vec3 e2 = glm::cross(axis, e1);
+  struct Seen {
+    Vec2 at;
+    Vec3 normal;
+  };
+  std::array<Seen, kMost> seen;
+  for (std::size_t i = 0; i < count_; ++i) {
+    const double along = glm::dot(normals_[i], axis);
+    seen[i] = {{glm::dot(normals_[i], e1) / along, glm::dot(normals_[i], e2) / along}, normals_[i]};
+  }
+  std::sort(seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(count_),
+            [](const Seen& a, const Seen& b) { return a.at.x < b.at.x || (a.at.x == b.at.x && a.at.y < b.at.y); });
+  std::array<Seen, 2 * kMost> hull;
+  std::size_t size = 0;
+  const auto add = [&](const Seen& next, std::size_t least) {
+    const auto turns_left = [&] {
+      const Vec2 a = hull[size - 1].at - hull[size - 2].at, b = next.at - hull[size - 2].at;
+      return a.x * b.y - a.y * b.x > 0.0;
+    };
+    while (size >= least + 2 && !turns_left()) --size;
+    hull[size++] = next;
+  };
+  for (std::size_t i = 0; i < count_; ++i) add(seen[i], 0);
+  const std::size_t lower = size - 1;
+  for (std::size_t i = count_ - 1; i-- > 0;) add(seen[i], lower);
+  --size;          // the first again
+  if (size < 3) {  // all in one plane
+    parts[0] = {point_, {hull[0].normal, hull[size - 1].normal, hull[size - 1].normal}};
+    return 1;
+  }
+  std::size_t count = 0;
+  for (std::size_t i = 1; i + 1 < size; ++i)
+    parts[count++] = {point_, {hull[0].normal, hull[i].normal, hull[i + 1].normal}};
+  return count;
+}
+
+}  // namespace tangent

@@ -1,0 +1,68 @@
+// Creases and vertices by parts: a stretch of the edge with a range of the fan of normals between its two sides, or a
+// triangle of the normals about a vertex. Fingers that are not round are kept off them by bounds of such parts.
+#pragma once
+
+#include "core/contact/patch_cache.h"
+#include "core/finger/finger_core.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+namespace tangent {
+
+/// A crease by control points of its curve, and control normals of its near and of its far side, all of them counted
+/// along the near side; or a vertex where only two normals meet, whose curve is a point. At a place of the curve with
+/// normals n and m the fan is what these add up to in any proportion, but for the lean.
+struct CreasePart {
+  std::array<Vec3, 4> curve;
+  std::array<Vec3, 3> near, far;
+  double lean = 0.0;      ///< sine of the angle by which a normal leans along the edge, at most
+  double lean_rad = 0.0;  ///< by so much a normal of the fan is off all n and m add up to, at most
+
+  /// Control normals of (1 - share) n + share m.
+  std::array<Vec3, 3> normals_at(double share) const;
+  SurfaceBounds bounds() const;
+  /// Whether its halves are other than straight, or between other normals.
+  bool is_curved() const;
+  /// Along the edge.
+  std::array<CreasePart, 2> halves() const;
+};
+
+CreasePart crease_part(PatchCache& cache, NormalForm form, std::uint32_t t, std::uint32_t side);
+
+/// Whether the normals of its two sides part nowhere along it: no plane touches it from outside.
+bool is_hollow(const CreasePart& crease);
+
+/// Normals that a plane through a vertex may have, as a triangle of directions.
+struct VertexPart {
+  Vec3 point;
+  std::array<Vec3, 3> normals;
+
+  SurfaceBounds bounds() const { return {point, Vec3(0.0), cone_of(normals)}; }
+  std::array<VertexPart, 2> halves() const;
+};
+
+/// All normals that a plane at one point may have: those of the triangles around a vertex, and all between them.
+class VertexNormals {
+ public:
+  static constexpr std::size_t kMost = 24;
+
+  /// Not for boundaries and crowded vertices, nor where the triangles are too many.
+  static std::optional<VertexNormals> around(const ContactMesh& mesh, std::uint32_t t, std::uint32_t corner);
+
+  const NormalCone& cone() const { return cone_; }
+  /// Where only two normals meet.
+  std::optional<CreasePart> arc() const;
+  /// They cover all of it; none where the cone is a hemisphere or wider. Returns how many.
+  std::size_t parts(std::array<VertexPart, kMost>& parts) const;
+
+ private:
+  Vec3 point_;
+  std::array<Vec3, kMost> normals_;
+  std::size_t count_ = 0;
+  NormalCone cone_;
+};
+
+}  // namespace tangent

@@ -1,0 +1,213 @@
+// Parts of creases and vertices: what they bound, and that no finger with a core is kept off one that it touches.
+#include "core/contact/prove/feature_parts.h"
+
+#include "core/contact/edge_fan.h"
+#include "core/contact/prove/core_crease_proof.h"
+#include "core/contact/prove/core_feature_proof.h"
+#include "core/mesh/vertex_ring.h"
+#include "tests/core/fingers.h"
+#include "tests/core/scenes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <vector>
+
+using namespace tangent;
+using namespace tangent::test;
+
+namespace {
+
+/// Straight creases, and ones that curve between sides whose normals turn along them.
+std::vector<ContactMesh> creased_meshes() {
+  std::vector<ContactMesh> meshes;
+  const auto add = [&](PolygonMesh mesh, double crease_deg) {
+    mesh.normals.clear();
+    mesh.corner_normal.clear();
+    ContactMeshOptions options;
+    options.crease_rad = crease_deg * kDegree;
+    meshes.push_back(*ContactMesh::build(mesh, options));
+  };
+  for (const char* name : {"cube", "cylinder", "octagon", "tetrahedron"}) add(*generate_mesh(name), 40.0);
+  PolygonMesh stone = make_icosphere(0.030, 1);
+  Random random(310);
+  for (Vec3& p : stone.positions) p *= random.in(0.8, 1.2);
+  for (const double crease_deg : {5.0, 20.0, 35.0}) add(stone, crease_deg);
+  return meshes;
+}
+
+struct Crease {
+  std::uint32_t triangle, side;
+};
+std::vector<Crease> creases_of(const ContactMesh& mesh) {
+  std::vector<Crease> creases;
+  for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
+    for (std::uint32_t k = 0; k < 3; ++k)
+      if (mesh.edge_kind(t, k) == EdgeKind::crease) creases.push_back({t, k});
+  return creases;
+}
+
+Finger long_finger(Random& random) {
+  Finger finger = finger_of(random.below(2) ? FingerShape::ellipsoid : FingerShape::capsule);
+  finger.radius_m = random.in(0.002, 0.012);
+  finger.half_length_m = random.in(0.002, 0.020);
+  finger.semi_axes_m = {random.in(0.004, 0.020), random.in(0.004, 0.020), random.in(0.004, 0.020)};
+  return finger;
+}
+
+/// From elsewhere, so far as gone_m counts.
+FingerPose away_from(const FingerPose& pose, const Finger& finger, double way_m, Random& random) {
+  const double turned = random.below(2) ? random.in(0.0, 1.0) * way_m : 0.0;
+  return {pose.position + (way_m - turned) * random.direction(),
+          glm::angleAxis(turned / finger.reach_m(), random.direction()) * pose.orientation};
+}
+
+}  // namespace
+
+TEST_CASE("the fan at every place of a crease is what its part says, and is within the bounds of all its halves") {
+  Random random(311);
+  int outside = 0, off_arc = 0, most_halved = 0;
+  for (const ContactMesh& mesh : creased_meshes()) {
+    PatchCache cache(mesh);
+    const std::vector<Crease> creases = creases_of(mesh);
+    REQUIRE(!creases.empty());
+    for (int i = 0; i < rounds(2000); ++i) {
+      const Crease at = creases[random.below(static_cast<std::uint32_t>(creases.size()))];
+      CreasePart part = crease_part(cache, NormalForm::bernstein, at.triangle, at.side);
+      const double f = random.in(0.0, 1.0);
+      const EdgeFan& fan = cache.fan(at.triangle, at.side, f, NormalForm::bernstein);
+      if (!fan.convex()) continue;
+      const double angle = random.in(0.0, 1.0) * std::atan2(fan.far.y, fan.far.x);
+      SurfaceSample s;
+      edge_sample(fan, Vec2(std::cos(angle), std::sin(angle)), s);
+      double low = 0.0, high = 1.0;
+      for (int halving = 0; halving < 4; ++halving) {
+        const SurfaceBounds bounds = part.bounds();
+        const Vec3 d = glm::abs(s.point - bounds.middle) - bounds.half;
+        outside += std::max({d.x, d.y, d.z}) > 1e-12;
+        outside += glm::dot(s.normal, bounds.normals.axis) < bounds.normals.cos_half - 1e-9;
+        const bool second = f > 0.5 * (low + high);
+        part = part.halves()[second];
+        (second ? low : high) = 0.5 * (low + high);
+        ++most_halved;
+      }
+      // In the plane of the two normals there, but for the lean.
+      const Vec3 across = glm::cross(fan.near_normal, fan.far_normal);
+      off_arc += std::abs(std::asin(glm::dot(s.normal, across) / glm::length(across))) > part.lean_rad + 1e-9;
+    }
+  }
+  CHECK(most_halved > 0);
+  CHECK(outside == 0);
+  CHECK(off_arc == 0);
+}
+
+TEST_CASE("no finger with a core is kept off a crease that it touches or can come to touch within the margin") {
+  Random random(312);
+  int missed = 0, told = 0, all = 0;
+  double nearest = 0.0;
+  for (const ContactMesh& mesh : creased_meshes()) {
+    PatchCache cache(mesh);
+    const std::vector<Crease> creases = creases_of(mesh);
+    for (int i = 0; i < rounds(20000); ++i) {
+      const Crease at = creases[random.below(static_cast<std::uint32_t>(creases.size()))];
+      const CreasePart part = crease_part(cache, NormalForm::bernstein, at.triangle, at.side);
+      const EdgeFan& fan = cache.fan(at.triangle, at.side, random.in(0.0, 1.0), NormalForm::bernstein);
+      if (!fan.convex()) continue;
+      const double angle = random.in(0.0, 1.0) * std::atan2(fan.far.y, fan.far.x);
+      SurfaceSample s;
+      edge_sample(fan, Vec2(std::cos(angle), std::sin(angle)), s);
+      const Finger finger = long_finger(random);
+      const FingerPose there = resting_on(finger, s.point, s.normal, random.in(-0.003, 0.004), random);
+      const double way = std::pow(10.0, random.in(-4.0, -1.5)), enough = random.below(2) ? 0.0 : 1.0;
+      const FingerCore core(finger, away_from(there, finger, way, random));
+      int tests = 0;
+      const double margin = crease_margin(core, part, enough, tests);
+      missed += margin > way * (1.0 + 1e-9) + 1e-12;
+      told += margin > 0.0;
+      if (margin > 0.0) nearest = std::max(nearest, margin / way);
+      ++all;
+      CHECK(tests <= 40);
+    }
+  }
+  CAPTURE(told);
+  CAPTURE(all);
+  CHECK(missed == 0);
+  CHECK(told > all / 20);
+  CHECK(nearest > 0.5);  // and does not fall far short
+}
+
+TEST_CASE("no finger with a core is kept off a vertex that it touches or can come to touch within the margin") {
+  Random random(313);
+  int missed = 0, told = 0, all = 0, arcs = 0;
+  const SolverSettings settings;
+  for (const ContactMesh& mesh : creased_meshes()) {
+    PatchCache cache(mesh);
+    for (int i = 0; i < rounds(5000); ++i) {
+      const std::uint32_t t = random.below(mesh.triangle_count()), k = random.below(3);
+      if (!mesh.feature_corner(t, k)) continue;
+      const std::optional<VertexNormals> normals = VertexNormals::around(mesh, t, k);
+      REQUIRE(normals);
+      Vec3 sum(0.0);
+      around_vertex(mesh, t, k, [&](std::uint32_t at, std::uint32_t corner) {
+        sum += std::pow(random.in(0.0, 1.0), 4.0) * mesh.normal(at, corner);
+      });
+      const Vec3 normal = unit(sum);
+      const Finger finger = long_finger(random);
+      const FingerPose there = resting_on(finger, mesh.position(t, k), normal, random.in(-0.003, 0.004), random);
+      const double way = std::pow(10.0, random.in(-4.0, -1.5));
+      const FingerPose pose = away_from(there, finger, way, random);
+      const FingerCore core(finger, pose);
+      ContactContext context{cache, settings, finger, pose, Vec3(0.0)};
+      context.core = &core;
+      const double margin =
+          exclude_features_by_core(context, core, {t, k}, {finger.reach_m() + 0.02, 1.0}, 1e-3).margin_m;
+      missed += margin > way * (1.0 + 1e-9) + 1e-12;
+      told += margin > 0.0;
+      ++all;
+      if (const std::optional<CreasePart> arc = normals->arc()) {
+        ++arcs;
+        int tests = 0;
+        missed += crease_margin(core, *arc, 0.0, tests) > way * (1.0 + 1e-9) + 1e-12;
+      }
+    }
+  }
+  CAPTURE(told);
+  CAPTURE(all);
+  CHECK(missed == 0);
+  CHECK(told > all / 20);
+  CHECK(arcs > 0);
+}
+
+TEST_CASE("the triangles of a corner's normals hold every sum of them, and so do their halves") {
+  Random random(314);
+  int uncovered = 0, corners = 0;
+  for (const ContactMesh& mesh : creased_meshes())
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const std::optional<VertexNormals> normals = VertexNormals::around(mesh, t, k);
+        REQUIRE(normals);
+        std::array<VertexPart, VertexNormals::kMost> parts;
+        const std::size_t count = normals->parts(parts);
+        if (count == 0) continue;
+        ++corners;
+        for (int i = 0; i < rounds(20); ++i) {
+          Vec3 sum(0.0);
+          around_vertex(mesh, t, k, [&](std::uint32_t at, std::uint32_t corner) {
+            sum += std::pow(random.in(0.0, 1.0), 4.0) * mesh.normal(at, corner);
+          });
+          const auto holds = [&](const VertexPart& part) {
+            const NormalCone cone = part.bounds().normals;
+            return glm::dot(unit(sum), cone.axis) >= cone.cos_half - 1e-9;
+          };
+          bool covered = false;
+          for (const VertexPart& part : std::span(parts).first(count)) {
+            const auto halves = part.halves();
+            covered = covered || (holds(part) && (holds(halves[0]) || holds(halves[1])));
+          }
+          uncovered += !covered;
+        }
+      }
+  CHECK(corners > 0);
+  CHECK(uncovered == 0);
+}
