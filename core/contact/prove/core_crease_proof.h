@@ -7,8 +7,8 @@
 namespace tangent {
 
 /// How far a finger may go until a contact could come up on a crease that is all but straight: by the sides to which
-/// the fan's planes draw it, and by where along the edge the finger's supports lie. 0: no proof. Adds to `tests` what
-/// it has looked at.
-double crease_margin(const FingerCore& core, const CreasePart& crease, double enough_m, int& tests);
+/// the fan's planes draw it, and by where along the edge the finger's supports lie. 0: no proof. At a `glance` the
+/// fan is looked at as a whole. Adds to `tests` what it has looked at.
+double crease_margin(const FingerCore& core, const CreasePart& crease, double enough_m, bool glance, int& tests);
 
 }  // namespace tangent

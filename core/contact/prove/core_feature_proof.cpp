@@ -14,9 +14,9 @@
 namespace tangent {
 namespace {
 
-/// A crease or corner of which nothing is known as a whole is halved so often, a corner until so much was looked at: a
-/// solve costs as much as ten such looks.
-constexpr int kCreaseHalvings = 3, kCornerHalvings = 6, kMostTests = 24;
+/// A corner of which nothing is known as a whole is halved so often, until so much was looked at: a solve costs as much
+/// as ten such looks.
+constexpr int kCornerHalvings = 6, kMostTests = 24;
 
 /// Of the margin that would be enough: what is excluded for that is not looked at for more.
 constexpr double kEnoughShare = 0.1;
@@ -42,36 +42,34 @@ double margin_by_distance(const FingerCore& core, const SurfaceBounds& part, con
 }
 
 /// By how far the part is outside the whole finger: as far as that is over the reach the finger may go.
-double margin_by_rank(const FingerCore& core, const SurfaceBounds& part, const RankBound& bound) {
-  const double outside = core.rank_outside(core.apart_m(part.middle, part.half));
+double margin_by_rank(const FingerCore& core, const Vec3& middle, const Vec3& half, const RankBound& bound) {
+  const double outside = core.rank_outside(core.apart_m(middle, half));
   return std::min(outside - core.reach_m(), bound.way_to(outside));
 }
 
 bool is_enough(double margin, double enough_m) { return margin > 0.0 && margin >= enough_m; }
 
 /// Once it is `enough_m`, no more is asked for.
-double margin_of(const FingerCore& core, const SurfaceBounds& part, const RankBound& bound, double enough_m) {
-  double margin = margin_by_rank(core, part, bound);
-  if (!is_enough(margin, enough_m)) margin = std::max(margin, touch_margin(core, part, enough_m));
-  if (!is_enough(margin, enough_m)) margin = std::max(margin, margin_by_distance(core, part, bound));
-  return margin;
+double margin_by_touch(const FingerCore& core, const SurfaceBounds& part, const RankBound& bound, double enough_m) {
+  const double margin = touch_margin(core, part, enough_m);
+  return is_enough(margin, enough_m) ? margin : std::max(margin, margin_by_distance(core, part, bound));
 }
 
-/// Halved along the edge while nothing is known.
+double margin_of(const FingerCore& core, const SurfaceBounds& part, const RankBound& bound, double enough_m) {
+  const double margin = margin_by_rank(core, part.middle, part.half, bound);
+  return is_enough(margin, enough_m) ? margin : std::max(margin, margin_by_touch(core, part, bound, enough_m));
+}
+
 double margin_of_crease(const FingerCore& core, const CreasePart& crease, const RankBound& bound, double enough_m,
-                        int halvings, int& tests) {
+                        bool glance, int& tests) {
   ++tests;
-  const SurfaceBounds bounds = crease.bounds();
-  double margin = margin_by_rank(core, bounds, bound);
-  if (!is_enough(margin, enough_m)) margin = std::max(margin, crease_margin(core, crease, enough_m, tests));
-  if (!is_enough(margin, kEnoughShare * enough_m)) margin = std::max(margin, margin_of(core, bounds, bound, enough_m));
-  if (margin > 0.0 || halvings == 0 || !crease.is_curved()) return margin;
-  double least = std::numeric_limits<double>::max();
-  for (const CreasePart& half : crease.halves()) {
-    least = std::min(least, margin_of_crease(core, half, bound, std::min(enough_m, least), halvings - 1, tests));
-    if (!(least > 0.0)) return 0.0;
-  }
-  return least;
+  const Box box = crease.box();
+  const Vec3 middle = box.centre(), extent = 0.5 * box.size();
+  double margin = margin_by_rank(core, middle, extent, bound);
+  if (!is_enough(margin, enough_m)) margin = std::max(margin, crease_margin(core, crease, enough_m, glance, tests));
+  if (!is_enough(margin, kEnoughShare * enough_m))
+    margin = std::max(margin, margin_by_touch(core, {middle, extent, crease.cone()}, bound, enough_m));
+  return margin;
 }
 
 /// The least of the margins of a triangle of normals, halved where nothing is known; 0 where one may be a contact's.
@@ -103,20 +101,21 @@ bool is_hollow_vertex(ContactContext& context, std::uint32_t t, std::uint32_t co
 
 /// Boundaries there have none.
 double vertex_margin(ContactContext& context, const FingerCore& core, std::uint32_t t, std::uint32_t corner,
-                     const RankBound& bound, double enough_m, int& looks) {
+                     const RankBound& bound, double enough_m, bool glance, int& looks) {
   const ContactMesh& mesh = context.cache.mesh();
   const std::optional<VertexNormals> normals = VertexNormals::around(mesh, t, corner);
   const NormalCone cone = normals ? normals->cone() : NormalCone{};
   const SurfaceBounds bounds{mesh.position(t, corner), Vec3(0.0), cone};
   const std::optional<CreasePart> arc = normals ? normals->arc() : std::nullopt;
   ++looks;
-  double margin = margin_by_rank(core, bounds, bound);
-  if (arc && !is_enough(margin, enough_m)) margin = std::max(margin, crease_margin(core, *arc, enough_m, looks));
+  double margin = margin_by_rank(core, bounds.middle, bounds.half, bound);
+  if (arc && !is_enough(margin, enough_m))
+    margin = std::max(margin, crease_margin(core, *arc, enough_m, glance, looks));
   if (!is_enough(margin, arc ? kEnoughShare * enough_m : enough_m))
-    margin = std::max(margin, margin_of(core, bounds, bound, enough_m));
+    margin = std::max(margin, margin_by_touch(core, bounds, bound, enough_m));
   if (margin > 0.0 || !normals) return margin;
   if (is_hollow_vertex(context, t, corner)) return std::numeric_limits<double>::max();
-  if (arc) return margin;
+  if (arc || glance) return margin;
   std::array<VertexPart, VertexNormals::kMost> parts;
   const std::size_t count = normals->parts(parts);
   if (count > 0) margin = std::numeric_limits<double>::max();
@@ -131,7 +130,7 @@ double vertex_margin(ContactContext& context, const FingerCore& core, std::uint3
 
 FeatureExclusion exclude_features_by_core(ContactContext& context, const FingerCore& core,
                                           const TriangleFeatures& features, const RankBound& bound, double enough_m,
-                                          const FeatureMemory* memory) {
+                                          const FeatureMemory* memory, bool glance) {
   const ContactMesh& mesh = context.cache.mesh();
   const std::uint32_t t = features.triangle;
   FeatureExclusion result;
@@ -148,14 +147,14 @@ FeatureExclusion exclude_features_by_core(ContactContext& context, const FingerC
       if (mesh.edge_kind(t, k) == EdgeKind::boundary) return 0.0;
       const CreasePart crease = crease_part(context.cache, context.settings.normal_form, t, k);
       if (is_hollow(crease)) return std::numeric_limits<double>::max();
-      return margin_of_crease(core, crease, bound, enough_m, kCreaseHalvings, tests);
+      return margin_of_crease(core, crease, bound, enough_m, glance, tests);
     });
   }
   for (std::uint32_t k = 0; k < 3 && result.margin_m > 0.0; ++k)
     if (features.has_corner(k) && mesh.feature_corner(t, k))
       ask(vertex_key(mesh, t, k), [&](int& tests) {
         int looks = 0;
-        const double margin = vertex_margin(context, core, t, k, bound, enough_m, looks);
+        const double margin = vertex_margin(context, core, t, k, bound, enough_m, glance, looks);
         tests += looks;
         return margin;
       });

@@ -23,9 +23,9 @@ struct FeatureExclusion {
 };
 
 /// Asks the creases and boundaries and their ends for contacts of a rank under `bound`, but for those that `memory`
-/// knows. Once a margin is `enough_m`, no more is asked for.
+/// knows. Once a margin is `enough_m`, no more is asked for; at a `glance` only each as a whole.
 FeatureExclusion exclude_features_by_core(ContactContext& context, const FingerCore& core,
                                           const TriangleFeatures& features, const RankBound& bound, double enough_m,
-                                          const FeatureMemory* memory = nullptr);
+                                          const FeatureMemory* memory = nullptr, bool glance = false);
 
 }  // namespace tangent

@@ -234,7 +234,7 @@ bool core_excludes_at_a_glance(ContactContext& context, const FingerCore& core, 
                                double enough_m, FeatureMemory* memory) {
   FeatureExclusion features;
   if (!context.cache.mesh().interior(t)) {
-    features = exclude_features_by_core(context, core, {t}, bound, enough_m, memory);
+    features = exclude_features_by_core(context, core, {t}, bound, enough_m, memory, true);
     if (features.margin_m < enough_m) return false;
   }
   const PatchPiece whole(context.cache.patch(t, context.settings.normal_form));

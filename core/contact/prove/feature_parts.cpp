@@ -44,9 +44,12 @@ void bound_lean(CreasePart& crease) {
   crease.lean = std::max(lean_along(crease.curve, crease.near), lean_along(crease.curve, crease.far));
   if (crease.lean == 0.0) return;
   double least = 1.0;
-  for (const Vec3& n : crease.near)
-    for (const Vec3& m : crease.far)
-      least = std::min(least, glm::dot(n, m) / std::sqrt(std::max(1e-300, glm::dot(n, n) * glm::dot(m, m))));
+  std::array<Vec3, 3> far;
+  for (std::size_t i = 0; i < 3; ++i) far[i] = unit(crease.far[i]);
+  for (const Vec3& n : crease.near) {
+    const Vec3 near = unit(n);
+    for (const Vec3& m : far) least = std::min(least, glm::dot(near, m));
+  }
   const double half = std::sqrt(std::max(0.0, 0.5 * (1.0 + least)));
   const bool bounded = crease.lean < kBoundedLean * half;
   crease.lean_rad = bounded ? kPerSine * crease.lean * (1.0 + 1.0 / half) : std::numeric_limits<double>::infinity();
@@ -59,43 +62,17 @@ NormalCone widened(const NormalCone& cone, double rad) {
   return {cone.axis, cone.cos_half * std::cos(rad) - sine * std::sin(rad)};
 }
 
-template <std::size_t N>
-std::pair<std::array<Vec3, N>, std::array<Vec3, N>> halved(std::array<Vec3, N> b) {
-  std::array<Vec3, N> first, second;
-  for (std::size_t i = 0; i < N; ++i) {
-    first[i] = b[0];
-    second[N - 1 - i] = b[N - 1 - i];
-    for (std::size_t j = 0; j + 1 + i < N; ++j) b[j] = 0.5 * (b[j] + b[j + 1]);
-  }
-  return {first, second};
-}
-
 }  // namespace
 
-std::array<Vec3, 3> CreasePart::normals_at(double share) const {
-  std::array<Vec3, 3> n;
-  for (std::size_t i = 0; i < n.size(); ++i) n[i] = (1.0 - share) * near[i] + share * far[i];
-  return n;
-}
-
-SurfaceBounds CreasePart::bounds() const {
+Box CreasePart::box() const {
   Box box;
   for (const Vec3& p : curve) box.include(p);
+  return box;
+}
+
+NormalCone CreasePart::cone() const {
   const std::array<Vec3, 6> normals{near[0], near[1], near[2], far[0], far[1], far[2]};
-  return {box.centre(), 0.5 * box.size(), widened(cone_of(normals), lean_rad)};
-}
-
-bool CreasePart::is_curved() const {
-  const auto is_even = [](const std::array<Vec3, 3>& n) { return n[0] == n[1] && n[1] == n[2]; };
-  return !is_even(near) || !is_even(far);
-}
-
-std::array<CreasePart, 2> CreasePart::halves() const {
-  std::array<CreasePart, 2> half{*this, *this};
-  std::tie(half[0].curve, half[1].curve) = halved(curve);
-  std::tie(half[0].near, half[1].near) = halved(near);
-  std::tie(half[0].far, half[1].far) = halved(far);
-  return half;
+  return widened(cone_of(normals), lean_rad);
 }
 
 CreasePart crease_part(PatchCache& cache, NormalForm form, std::uint32_t t, std::uint32_t side) {

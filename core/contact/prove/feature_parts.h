@@ -21,13 +21,8 @@ struct CreasePart {
   double lean = 0.0;      ///< sine of the angle by which a normal leans along the edge, at most
   double lean_rad = 0.0;  ///< by so much a normal of the fan is off all n and m add up to, at most
 
-  /// Control normals of (1 - share) n + share m.
-  std::array<Vec3, 3> normals_at(double share) const;
-  SurfaceBounds bounds() const;
-  /// Whether its halves are other than straight, or between other normals.
-  bool is_curved() const;
-  /// Along the edge.
-  std::array<CreasePart, 2> halves() const;
+  Box box() const;
+  NormalCone cone() const;
 };
 
 CreasePart crease_part(PatchCache& cache, NormalForm form, std::uint32_t t, std::uint32_t side);
