@@ -4,6 +4,13 @@
 
 namespace tangent {
 
+std::string outcome_text(const TickOutput& output) {
+  std::string text = to_string(output.status);
+  if (output.event != TickEvent::none) text += std::string(", ") + to_string(output.event);
+  if (output.searching) text += ", searching";
+  return text;
+}
+
 std::string attempts_text(std::span<const IterationRecord> iterations, std::size_t lost, int planes, int limit) {
   constexpr std::size_t kMostListed = 6;
   int tracking = 0, sum = 0;

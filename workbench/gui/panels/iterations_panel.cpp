@@ -120,10 +120,13 @@ std::string counts_text(const TickOutput& out, bool planar) {
 void draw_summary(const UiContext& ui, const TickOutput& out, Planes planes, bool planar, const char* path) {
   const bool bad = !is_converged(out.status);
   ImGui::PushStyleColor(ImGuiCol_Text, bad ? ui.colours.warning : ui.colours.text);
-  const std::string event = out.event == TickEvent::none ? "" : std::string(", ") + to_string(out.event);
-  ImGui::Text("%s%s", to_string(out.status), event.c_str());
+  ImGui::TextUnformatted(outcome_text(out).c_str());
   ImGui::PopStyleColor();
   ui.items.note_last(path);
+  if (out.searching)
+    tooltip(ui,
+            "Searching: the search for deeper places takes more than a tick's work and goes on at the next tick. Until "
+            "its end there may be a deeper place that nobody knows yet");
   const std::string why = "stop: " + last_stop(planes) + "; " + counts_text(out, planar);
   same_line_if_room(ImGui::CalcTextSize(why.c_str()).x);
   ImGui::PushTextWrapPos(0.0f);

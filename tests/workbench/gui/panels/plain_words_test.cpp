@@ -58,6 +58,16 @@ TEST_CASE("a mesh of which three of four triangles are left out says so first") 
   CHECK(first.text.find("3 of 4 triangles are left out") != std::string::npos);
 }
 
+TEST_CASE("a tick's outcome names its status, its event and that it searches on") {
+  TickOutput out;
+  out.status = TickStatus::face;
+  CHECK(outcome_text(out) == "face");
+  out.searching = true;
+  CHECK(outcome_text(out) == "face, searching");
+  out.event = TickEvent::switched;
+  CHECK(outcome_text(out) == "face, switch, searching");
+}
+
 TEST_CASE("the planes of a tick are counted by attempt, beside the limit of one attempt") {
   std::vector<IterationRecord> records(51);
   CHECK(attempts_text(std::span(records).first(2), 0, 1, 50) == "Tracking 1; limit 50 per attempt");
