@@ -11,10 +11,13 @@ namespace {
 constexpr double kMostTurn = 0.5, kMostLean = 0.3;
 constexpr int kHalvings = 3, kGlanceHalvings = 0;  // of a fan
 
+double chord_of(double cosine) { return std::sqrt(std::max(0.0, 2.0 - 2.0 * cosine)); }
+
 /// The direction of an edge, and the sine of the angle by which it is off that.
 struct Along {
   Vec3 axis;
   double sine;
+  double chord() const { return chord_of(std::sqrt(1.0 - sine * sine)); }
 };
 Along along(const CreasePart& part) {
   const Vec3 chord = part.curve[3] - part.curve[0];
@@ -30,8 +33,6 @@ Along along(const CreasePart& part) {
   }
   return a;
 }
-
-double chord_of(double cosine) { return std::sqrt(std::max(0.0, 2.0 - 2.0 * cosine)); }
 
 constexpr double kPerChord = 1.03;  // the angle, of chords up to a half
 
@@ -51,8 +52,9 @@ struct Pull {
   double half_width_m = 0.0, least_length_m = 0.0;
   double height_m = 0.0;  ///< of the core over the planes, at least
 
-  /// For normals within that of a unit one.
-  Pull(const FingerCore& core, const Vec3& middle_normal, double off_it, const SurfaceBounds& bounds, const Along& edge)
+  /// For normals within `off_it` of a unit one, and turns that lean by `turn_leans`.
+  Pull(const FingerCore& core, const Vec3& middle_normal, double off_it, double turn_leans, const SurfaceBounds& bounds,
+       const Along& edge)
       : normal(middle_normal), wide(off_it) {
     const Vec3 out = glm::cross(edge.axis, normal);
     const double length = std::sqrt(glm::dot(out, out));
@@ -66,13 +68,13 @@ struct Pull {
     room_m = glm::dot(bounds.half, glm::abs(t));
     half_width_m = core.half_width(t);
     least_length_m = support.length;
-    const double off = 2.0 * (wide + chord_of(std::sqrt(1.0 - edge.sine * edge.sine))) / (length + 0.9);
+    const double off = 2.0 * (wide + edge.chord()) / (length + 0.9) + turn_leans;
     if (!(off > 0.0)) return;
     least_length_m -= core.longest_m() * wide;
     half_width_m = core.longest_m();
     const double moves = slide_within(core, least_length_m, wide), farthest = std::sqrt(glm::dot(away, away));
     room_m += moves + off * (farthest + bounds.radius_m + moves);
-    height_m -= wide * (farthest + bounds.radius_m);  // the core lies higher over other planes than this support
+    height_m -= wide * (farthest + bounds.radius_m + moves);  // that for other planes lies lower over them
   }
 
   /// How far the finger may go until a contact could come up with a normal from here on to `last`, the other end of a
@@ -114,7 +116,7 @@ double margin_along(const FingerCore& core, const CreasePart& part, const Surfac
   const Vec3 to_core = core.centre() - bounds.middle;
   double room = glm::dot(bounds.half, glm::abs(edge.axis));
   if (wide > 0.0) room += slide_within(core, least_length, wide);
-  const double leans = part.lean + edge.sine;
+  const double leans = part.lean + edge.chord();
   if (leans > 0.0) room += leans * (std::sqrt(glm::dot(to_core, to_core)) + core.longest_m() + bounds.radius_m);
   const double miss = std::max(along - high, low - along) - room;
   return core.way_within(core.half_width(edge.axis), least_length, miss);
@@ -164,8 +166,8 @@ class FanRanges {
     ++tests_;
     const double leans = of.x > 0.0 && of.y > 0.0 ? crease_.lean_rad : 0.0;
     return {of,
-            {core_, of.x * near_.normal + of.y * far_.normal, of.x * near_.wide + of.y * far_.wide + leans, bounds_,
-             edge_}};
+            {core_, of.x * near_.normal + of.y * far_.normal, of.x * near_.wide + of.y * far_.wide + leans,
+             crease_.lean_turn, bounds_, edge_}};
   }
   double margin(const PullAt& from, const PullAt& to, int halvings) {
     const Pull &first = from.pull, &last = to.pull;

@@ -43,16 +43,23 @@ double lean_along(const std::array<Vec3, 4>& curve, const std::array<Vec3, 3>& n
 void bound_lean(CreasePart& crease) {
   crease.lean = std::max(lean_along(crease.curve, crease.near), lean_along(crease.curve, crease.far));
   if (crease.lean == 0.0) return;
-  double least = 1.0;
+  double least = 1.0, most = -1.0;
   std::array<Vec3, 3> far;
   for (std::size_t i = 0; i < 3; ++i) far[i] = unit(crease.far[i]);
   for (const Vec3& n : crease.near) {
     const Vec3 near = unit(n);
-    for (const Vec3& m : far) least = std::min(least, glm::dot(near, m));
+    for (const Vec3& m : far) {
+      least = std::min(least, glm::dot(near, m));
+      most = std::max(most, glm::dot(near, m));
+    }
   }
   const double half = std::sqrt(std::max(0.0, 0.5 * (1.0 + least)));
   const bool bounded = crease.lean < kBoundedLean * half;
   crease.lean_rad = bounded ? kPerSine * crease.lean * (1.0 + 1.0 / half) : std::numeric_limits<double>::infinity();
+  // By the turn's angle, share_of (edge_fan.h) changes by half of 1 + the cotangent of half the fan's at most, and the
+  // lean by that of twice itself; over a secant, whose sine is what the change is divided by, by pi/2 times as much.
+  const double cot = std::sqrt(std::max(0.0, 1.0 + most) / std::max(1e-300, 1.0 - most));
+  crease.lean_turn = crease.lean * (1.6 * (1.0 + cot) + 1.0);
 }
 
 NormalCone widened(const NormalCone& cone, double rad) {

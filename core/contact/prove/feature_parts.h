@@ -20,6 +20,9 @@ struct CreasePart {
   std::array<Vec3, 3> near, far;
   double lean = 0.0;      ///< sine of the angle by which a normal leans along the edge, at most
   double lean_rad = 0.0;  ///< by so much a normal of the fan is off all n and m add up to, at most
+  /// By so much the direction from one normal of a fan to another is off the turn about the edge, at most, for normals
+  /// up to 85 degrees apart: as they lean differently.
+  double lean_turn = 0.0;
 
   Box box() const;
   NormalCone cone() const;

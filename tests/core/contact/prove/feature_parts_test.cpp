@@ -67,7 +67,8 @@ FingerPose away_from(const FingerPose& pose, const Finger& finger, double way_m,
 
 TEST_CASE("the fan at every place of a crease is what its part says, and within its bounds") {
   Random random(311);
-  int outside = 0, off_arc = 0, looked_at = 0;
+  int outside = 0, off_arc = 0, off_turn = 0, looked_at = 0;
+  double most_off = 0.0;
   for (const ContactMesh& mesh : creased_meshes()) {
     PatchCache cache(mesh);
     const std::vector<Crease> creases = creases_of(mesh);
@@ -85,6 +86,17 @@ TEST_CASE("the fan at every place of a crease is what its part says, and within 
       outside += std::max({d.x, d.y, d.z}) > 1e-12;
       outside += glm::dot(s.normal, part.cone().axis) < part.cone().cos_half - 1e-9;
       ++looked_at;
+      // From it to another one about the edge, but for how differently they lean.
+      SurfaceSample other;
+      const double to = random.in(0.0, 1.0) * std::atan2(fan.far.y, fan.far.x);
+      edge_sample(fan, Vec2(std::cos(to), std::sin(to)), other);
+      const double cosine = glm::dot(s.normal, other.normal);
+      if (cosine > 0.1 && cosine < 1.0 - 1e-6) {
+        const Vec3 way = unit(other.normal - cosine * s.normal);
+        const Vec3 turn = (to > angle ? 1.0 : -1.0) * unit(glm::cross(fan.tangent, s.normal));
+        off_turn += glm::distance(way, turn) > part.lean_turn + 1e-6;
+        most_off = std::max(most_off, glm::distance(way, turn));
+      }
       // In the plane of the two normals there, but for the lean.
       const Vec3 across = glm::cross(fan.near_normal, fan.far_normal);
       off_arc += std::abs(std::asin(glm::dot(s.normal, across) / glm::length(across))) > part.lean_rad + 1e-9;
@@ -93,6 +105,8 @@ TEST_CASE("the fan at every place of a crease is what its part says, and within 
   CHECK(looked_at > 0);
   CHECK(outside == 0);
   CHECK(off_arc == 0);
+  CHECK(off_turn == 0);
+  CHECK(most_off > 1e-3);  // or nothing was tried
 }
 
 TEST_CASE("no finger with a core is kept off a crease that it touches or can come to touch within the margin") {
