@@ -158,7 +158,11 @@ std::optional<CreasePart> VertexNormals::arc() const {
 
 // Seen from the cone's axis, on a plane across it, they are a convex polygon; its corners by Andrew's chain.
 std::size_t VertexNormals::parts(std::array<VertexPart, kMost>& parts) const {
-  if (!(cone_.cos_half > 1e-3)) return 0;
+  if (count_ == 0 || !(cone_.cos_half > 1e-3)) return 0;
+  if (count_ == 1) {
+    parts[0] = {point_, {normals_[0], normals_[0], normals_[0]}};
+    return 1;
+  }
   const Vec3& axis = cone_.axis;
   const Vec3 e1 = unit(glm::cross(axis, std::abs(axis.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
   const Vec3 e2 = glm::cross(axis, e1);
