@@ -19,11 +19,11 @@ struct Along {
   double sine;
   double chord() const { return chord_of(std::sqrt(1.0 - sine * sine)); }
 };
-Along along(const CreasePart& part) {
-  const Vec3 chord = part.curve[3] - part.curve[0];
-  if (chord == Vec3(0.0)) return {unit(glm::cross(part.near[0], part.far[0])), 0.0};
-  const std::array<Vec3, 3> speed{part.curve[1] - part.curve[0], part.curve[2] - part.curve[1],
-                                  part.curve[3] - part.curve[2]};
+Along along(const CreaseNet& crease) {
+  const Vec3 chord = crease.curve[3] - crease.curve[0];
+  if (chord == Vec3(0.0)) return {unit(glm::cross(crease.near[0], crease.far[0])), 0.0};
+  const std::array<Vec3, 3> speed{crease.curve[1] - crease.curve[0], crease.curve[2] - crease.curve[1],
+                                  crease.curve[3] - crease.curve[2]};
   Along a{unit(chord), 0.0};
   for (const Vec3& x : speed) {
     const Vec3 across = glm::cross(x, a.axis);
@@ -41,7 +41,7 @@ double slide_within(const FingerCore& core, double least_length_m, double chord)
   return std::min(2.0 * core.longest_m(), core.largest_radius(least_length_m) * kPerChord * chord);
 }
 
-/// The core's support for the planes at one share.
+/// The core's support for the planes with one normal of the fan, or all but that one, along the edge.
 struct Pull {
   Vec3 normal;  ///< in the middle of those along the edge
   bool known = false;
@@ -95,9 +95,10 @@ struct Pull {
   static constexpr double kLeastCosine = 0.1, kMostWide = 0.5;
 };
 
-/// How far the finger may go until the supports for the normals between two could lie beside the part. While N runs
-/// over an arc, g (finger_core.h) does, and along the edge the supports lie off the centre by -(A T).g, a sinusoid.
-double margin_along(const FingerCore& core, const CreasePart& part, const SurfaceBounds& bounds, const Along& edge,
+/// How far the finger may go until the supports for the normals between two could lie over the edge, beside which they
+/// lie now. While N runs over an arc, g (finger_core.h) does, and along the edge the supports lie off the centre by -(A
+/// T).g, a sinusoid.
+double margin_along(const FingerCore& core, const CreaseNet& crease, const SurfaceBounds& bounds, const Along& edge,
                     double wide, const Pull& first, const Pull& last) {
   if (!first.known || !last.known) return 0.0;
   const Vec3 v = core.scaled(edge.axis), &g = first.support.direction, &h = last.support.direction;
@@ -116,16 +117,16 @@ double margin_along(const FingerCore& core, const CreasePart& part, const Surfac
   const Vec3 to_core = core.centre() - bounds.middle;
   double room = glm::dot(bounds.half, glm::abs(edge.axis));
   if (wide > 0.0) room += slide_within(core, least_length, wide);
-  const double leans = part.lean + edge.chord();
+  const double leans = crease.lean + edge.chord();
   if (leans > 0.0) room += leans * (std::sqrt(glm::dot(to_core, to_core)) + core.longest_m() + bounds.radius_m);
   const double miss = std::max(along - high, low - along) - room;
   return core.way_within(core.half_width(edge.axis), least_length, miss);
 }
 
-/// Of a crease whose fan is halved while nothing is known of a range.
+/// The margin of a crease, whose fan is halved while nothing is known of a range.
 class FanRanges {
  public:
-  FanRanges(const FingerCore& core, const CreasePart& crease, const Along& edge, double enough_m)
+  FanRanges(const FingerCore& core, const CreaseNet& crease, const Along& edge, double enough_m)
       : core_(core),
         crease_(crease),
         edge_(edge),
@@ -193,7 +194,7 @@ class FanRanges {
   bool is_enough(double margin) const { return margin > 0.0 && margin >= kShare * enough_m_; }
 
   const FingerCore& core_;
-  const CreasePart& crease_;
+  const CreaseNet& crease_;
   const Along& edge_;
   const SurfaceBounds bounds_;
   double enough_m_;
@@ -209,7 +210,7 @@ class FanRanges {
 // over the contact's plane: h cos a + (p - S).e sin a >= lambda. So (p - S).e >= h tan a; where it is less, to the near
 // side, and below 0, there is no contact from n on to N. That halves the fan until what is left are turns that may have
 // one, of which the place along the edge tells.
-double crease_margin(const FingerCore& core, const CreasePart& crease, double enough_m, bool glance, int& tests) {
+double crease_margin(const FingerCore& core, const CreaseNet& crease, double enough_m, bool glance, int& tests) {
   const Along edge = along(crease);
   if (!(edge.sine < kMostTurn) || !(crease.lean < kMostLean)) return 0.0;
   FanRanges ranges(core, crease, edge, enough_m);

@@ -1,7 +1,7 @@
 #include "core/contact/prove/core_feature_proof.h"
 
 #include "core/contact/prove/core_crease_proof.h"
-#include "core/contact/prove/feature_parts.h"
+#include "core/contact/prove/feature_nets.h"
 #include "core/mesh/vertex_ring.h"
 
 #include <algorithm>
@@ -60,7 +60,7 @@ double margin_of(const FingerCore& core, const SurfaceBounds& part, const RankBo
   return is_enough(margin, enough_m) ? margin : std::max(margin, margin_by_touch(core, part, bound, enough_m));
 }
 
-double margin_of_crease(const FingerCore& core, const CreasePart& crease, const RankBound& bound, double enough_m,
+double margin_of_crease(const FingerCore& core, const CreaseNet& crease, const RankBound& bound, double enough_m,
                         bool glance, int& tests) {
   ++tests;
   const Box box = crease.box();
@@ -73,13 +73,13 @@ double margin_of_crease(const FingerCore& core, const CreasePart& crease, const 
 }
 
 /// The least of the margins of a triangle of normals, halved where nothing is known; 0 where one may be a contact's.
-double margin_of_corner(const FingerCore& core, const VertexPart& part, const RankBound& bound, double enough_m,
+double margin_of_corner(const FingerCore& core, const NormalTriangle& part, const RankBound& bound, double enough_m,
                         int halvings, int& tests) {
   ++tests;
   const double margin = margin_of(core, part.bounds(), bound, enough_m);
   if (margin > 0.0 || halvings == 0 || tests >= kMostTests) return margin;
   double least = std::numeric_limits<double>::max();
-  for (const VertexPart& half : part.halves()) {
+  for (const NormalTriangle& half : part.halves()) {
     least = std::min(least, margin_of_corner(core, half, bound, std::min(enough_m, least), halvings - 1, tests));
     if (!(least > 0.0)) return 0.0;
   }
@@ -94,7 +94,7 @@ bool is_hollow_vertex(ContactContext& context, std::uint32_t t, std::uint32_t co
     const EdgeKind kind = mesh.edge_kind(at, k);
     hollow = hollow && mesh.edge_kind(at, (k + 2) % 3) != EdgeKind::boundary &&
              (kind == EdgeKind::smooth ||
-              (kind == EdgeKind::crease && is_hollow(crease_part(context.cache, context.settings.normal_form, at, k))));
+              (kind == EdgeKind::crease && is_hollow(crease_net(context.cache, context.settings.normal_form, at, k))));
   });
   return hollow;
 }
@@ -106,7 +106,7 @@ double vertex_margin(ContactContext& context, const FingerCore& core, std::uint3
   const std::optional<VertexNormals> normals = VertexNormals::around(mesh, t, corner);
   const NormalCone cone = normals ? normals->cone() : NormalCone{};
   const SurfaceBounds bounds{mesh.position(t, corner), Vec3(0.0), cone};
-  const std::optional<CreasePart> arc = normals ? normals->arc() : std::nullopt;
+  const std::optional<CreaseNet> arc = normals ? normals->arc() : std::nullopt;
   ++looks;
   double margin = margin_by_rank(core, bounds.middle, bounds.half, bound);
   if (arc && !is_enough(margin, enough_m))
@@ -116,10 +116,10 @@ double vertex_margin(ContactContext& context, const FingerCore& core, std::uint3
   if (margin > 0.0 || !normals) return margin;
   if (is_hollow_vertex(context, t, corner)) return std::numeric_limits<double>::max();
   if (arc || glance) return margin;
-  std::array<VertexPart, VertexNormals::kMost> parts;
+  std::array<NormalTriangle, VertexNormals::kMost> parts;
   const std::size_t count = normals->parts(parts);
   if (count > 0) margin = std::numeric_limits<double>::max();
-  for (const VertexPart& part : std::span(parts).first(count)) {
+  for (const NormalTriangle& part : std::span(parts).first(count)) {
     margin = std::min(margin, margin_of_corner(core, part, bound, std::min(enough_m, margin), kCornerHalvings, looks));
     if (!(margin > 0.0)) return 0.0;
   }
@@ -145,7 +145,7 @@ FeatureExclusion exclude_features_by_core(ContactContext& context, const FingerC
     if (!features.has_side(k) || mesh.edge_kind(t, k) == EdgeKind::smooth) continue;
     ask(edge_key(mesh, t, k), [&](int& tests) {
       if (mesh.edge_kind(t, k) == EdgeKind::boundary) return 0.0;
-      const CreasePart crease = crease_part(context.cache, context.settings.normal_form, t, k);
+      const CreaseNet crease = crease_net(context.cache, context.settings.normal_form, t, k);
       if (is_hollow(crease)) return std::numeric_limits<double>::max();
       return margin_of_crease(core, crease, bound, enough_m, glance, tests);
     });

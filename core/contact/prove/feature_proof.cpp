@@ -1,5 +1,6 @@
 #include "core/contact/prove/feature_proof.h"
 
+#include "core/contact/prove/feature_nets.h"
 #include "core/mesh/vertex_ring.h"
 
 #include <algorithm>
@@ -47,12 +48,8 @@ EdgeEnds edge_ends(const ContactMesh& mesh, const PnPatch& patch, std::uint32_t 
 /// Greatest |N.S'| along the edge, of unit normals: how much they lean along it.
 double lean_along(const EdgeEnds& e, const std::array<Vec3, 3>& speed) {
   const std::array<Vec3, 3> n{e.np, e.middle_normal, e.nq};
-  const std::array<double, 5> lean{
-      glm::dot(n[0], speed[0]), 0.5 * (glm::dot(n[0], speed[1]) + glm::dot(n[1], speed[0])),
-      (glm::dot(n[0], speed[2]) + 4.0 * glm::dot(n[1], speed[1]) + glm::dot(n[2], speed[0])) / 6.0,
-      0.5 * (glm::dot(n[1], speed[2]) + glm::dot(n[2], speed[1])), glm::dot(n[2], speed[2])};
-  double most = 0.0, shortest = 1.0;
-  for (const double x : lean) most = std::max(most, std::abs(x));
+  const double most = greatest_product(n, speed);
+  double shortest = 1.0;
   const Vec3 axis = unit(n[0] + n[2]);
   for (const Vec3& x : n) shortest = std::min(shortest, glm::dot(x, axis));
   return shortest > 0.1 ? most / shortest : std::numeric_limits<double>::max();

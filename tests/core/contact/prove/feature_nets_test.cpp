@@ -1,5 +1,5 @@
 // Parts of creases and vertices: what they bound, and that no finger with a core is kept off one that it touches.
-#include "core/contact/prove/feature_parts.h"
+#include "core/contact/prove/feature_nets.h"
 
 #include "core/contact/edge_fan.h"
 #include "core/contact/prove/core_crease_proof.h"
@@ -75,7 +75,7 @@ TEST_CASE("the fan at every place of a crease is what its part says, and within 
     REQUIRE(!creases.empty());
     for (int i = 0; i < rounds(2000); ++i) {
       const Crease at = creases[random.below(static_cast<std::uint32_t>(creases.size()))];
-      const CreasePart part = crease_part(cache, NormalForm::bernstein, at.triangle, at.side);
+      const CreaseNet part = crease_net(cache, NormalForm::bernstein, at.triangle, at.side);
       const double f = random.in(0.0, 1.0);
       const EdgeFan& fan = cache.fan(at.triangle, at.side, f, NormalForm::bernstein);
       if (!fan.convex()) continue;
@@ -118,7 +118,7 @@ TEST_CASE("no finger with a core is kept off a crease that it touches or can com
     const std::vector<Crease> creases = creases_of(mesh);
     for (int i = 0; i < rounds(20000); ++i) {
       const Crease at = creases[random.below(static_cast<std::uint32_t>(creases.size()))];
-      const CreasePart part = crease_part(cache, NormalForm::bernstein, at.triangle, at.side);
+      const CreaseNet part = crease_net(cache, NormalForm::bernstein, at.triangle, at.side);
       const EdgeFan& fan = cache.fan(at.triangle, at.side, random.in(0.0, 1.0), NormalForm::bernstein);
       if (!fan.convex()) continue;
       const double angle = random.in(0.0, 1.0) * std::atan2(fan.far.y, fan.far.x);
@@ -172,7 +172,7 @@ TEST_CASE("no finger with a core is kept off a vertex that it touches or can com
       missed += margin > way * (1.0 + 1e-9) + 1e-12;
       told += margin > 0.0;
       ++all;
-      if (const std::optional<CreasePart> arc = normals->arc()) {
+      if (const std::optional<CreaseNet> arc = normals->arc()) {
         ++arcs;
         int tests = 0;
         missed += crease_margin(core, *arc, 0.0, false, tests) > way * (1.0 + 1e-9) + 1e-12;
@@ -194,7 +194,7 @@ TEST_CASE("the triangles of a corner's normals hold every sum of them, and so do
       for (std::uint32_t k = 0; k < 3; ++k) {
         const std::optional<VertexNormals> normals = VertexNormals::around(mesh, t, k);
         REQUIRE(normals);
-        std::array<VertexPart, VertexNormals::kMost> parts;
+        std::array<NormalTriangle, VertexNormals::kMost> parts;
         const std::size_t count = normals->parts(parts);
         if (count == 0) continue;
         ++corners;
@@ -203,12 +203,12 @@ TEST_CASE("the triangles of a corner's normals hold every sum of them, and so do
           around_vertex(mesh, t, k, [&](std::uint32_t at, std::uint32_t corner) {
             sum += std::pow(random.in(0.0, 1.0), 4.0) * mesh.normal(at, corner);
           });
-          const auto holds = [&](const VertexPart& part) {
+          const auto holds = [&](const NormalTriangle& part) {
             const NormalCone cone = part.bounds().normals;
             return glm::dot(unit(sum), cone.axis) >= cone.cos_half - 1e-9;
           };
           bool covered = false;
-          for (const VertexPart& part : std::span(parts).first(count)) {
+          for (const NormalTriangle& part : std::span(parts).first(count)) {
             const auto halves = part.halves();
             covered = covered || (holds(part) && (holds(halves[0]) || holds(halves[1])));
           }

@@ -1,5 +1,5 @@
-// Creases and vertices by parts: a stretch of the edge with a range of the fan of normals between its two sides, or a
-// triangle of the normals about a vertex. Fingers that are not round are kept off them by bounds of such parts.
+// Control nets of creases, and the normals about a vertex as triangles of directions: what proofs read by which fingers
+// that are not round are kept off them. Places in local coordinates, m; normals of about unit length.
 #pragma once
 
 #include "core/contact/patch_cache.h"
@@ -12,10 +12,11 @@
 
 namespace tangent {
 
-/// A crease by control points of its curve, and control normals of its near and of its far side, all of them counted
-/// along the near side; or a vertex where only two normals meet, whose curve is a point. At a place of the curve with
-/// normals n and m the fan is what these add up to in any proportion, but for the lean.
-struct CreasePart {
+/// A crease: the four Bezier points of its cubic, and three Bernstein coefficients each of the quadratic normals of its
+/// near and of its far side, all of them counted along the near side; or a vertex where only two normals meet, whose
+/// curve is a point. At a place of the curve with normals n and m the fan (edge_fan.h) is what these add up to in any
+/// proportion, but for the lean.
+struct CreaseNet {
   std::array<Vec3, 4> curve;
   std::array<Vec3, 3> near, far;
   double lean = 0.0;      ///< sine of the angle by which a normal leans along the edge, at most
@@ -24,22 +25,27 @@ struct CreasePart {
   /// up to 85 degrees apart: as they lean differently.
   double lean_turn = 0.0;
 
-  Box box() const;
-  NormalCone cone() const;
+  Box box() const;          ///< of the curve
+  NormalCone cone() const;  ///< of all normals of its fans
 };
 
-CreasePart crease_part(PatchCache& cache, NormalForm form, std::uint32_t t, std::uint32_t side);
+/// Precondition: that side of the triangle is a crease.
+CreaseNet crease_net(PatchCache& cache, NormalForm form, std::uint32_t t, std::uint32_t side);
 
 /// Whether the normals of its two sides part nowhere along it: no plane touches it from outside.
-bool is_hollow(const CreasePart& crease);
+bool is_hollow(const CreaseNet& crease);
+
+/// The greatest |N.S'| of a quadratic and a cubic, at most, by the Bernstein coefficients of their product: `speed` has
+/// those of S'.
+double greatest_product(const std::array<Vec3, 3>& normals, const std::array<Vec3, 3>& speed);
 
 /// Normals that a plane through a vertex may have, as a triangle of directions.
-struct VertexPart {
+struct NormalTriangle {
   Vec3 point;
   std::array<Vec3, 3> normals;
 
   SurfaceBounds bounds() const { return {point, Vec3(0.0), cone_of(normals)}; }
-  std::array<VertexPart, 2> halves() const;
+  std::array<NormalTriangle, 2> halves() const;
 };
 
 /// All normals that a plane at one point may have: those of the triangles around a vertex, and all between them.
@@ -52,9 +58,9 @@ class VertexNormals {
 
   const NormalCone& cone() const { return cone_; }
   /// Where only two normals meet.
-  std::optional<CreasePart> arc() const;
-  /// They cover all of it; none where the cone is a hemisphere or wider. Returns how many.
-  std::size_t parts(std::array<VertexPart, kMost>& parts) const;
+  std::optional<CreaseNet> arc() const;
+  /// Triangles that cover all of them, none where the cone is a hemisphere or wider. Returns how many.
+  std::size_t parts(std::array<NormalTriangle, kMost>& parts) const;
 
  private:
   Vec3 point_;

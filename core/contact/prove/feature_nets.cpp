@@ -1,4 +1,4 @@
-#include "core/contact/prove/feature_parts.h"
+#include "core/contact/prove/feature_nets.h"
 
 #include "core/mesh/vertex_ring.h"
 
@@ -24,12 +24,7 @@ std::array<Vec3, 3> normals_along(const PnPatch& patch, std::uint32_t edge) {
 /// forms. 1: no bound.
 double lean_along(const std::array<Vec3, 4>& curve, const std::array<Vec3, 3>& n) {
   const std::array<Vec3, 3> speed{curve[1] - curve[0], curve[2] - curve[1], curve[3] - curve[2]};
-  const std::array<double, 5> lean{
-      glm::dot(n[0], speed[0]), 0.5 * (glm::dot(n[0], speed[1]) + glm::dot(n[1], speed[0])),
-      (glm::dot(n[0], speed[2]) + 4.0 * glm::dot(n[1], speed[1]) + glm::dot(n[2], speed[0])) / 6.0,
-      0.5 * (glm::dot(n[1], speed[2]) + glm::dot(n[2], speed[1])), glm::dot(n[2], speed[2])};
-  double most = 0.0;
-  for (const double x : lean) most = std::max(most, std::abs(x));
+  const double most = greatest_product(n, speed);
   const Vec3 chord = curve[3] - curve[0], axis = n[0] + n[2];
   double slowest = std::numeric_limits<double>::max(), shortest = slowest;
   for (const Vec3& x : speed) slowest = std::min(slowest, glm::dot(x, chord));
@@ -40,7 +35,7 @@ double lean_along(const std::array<Vec3, 4>& curve, const std::array<Vec3, 3>& n
 
 /// A plane of the fan leans between as much as the two sides do; n + m, over its length, up to 1 / cos of half the
 /// angle between them as much.
-void bound_lean(CreasePart& crease) {
+void bound_lean(CreaseNet& crease) {
   crease.lean = std::max(lean_along(crease.curve, crease.near), lean_along(crease.curve, crease.far));
   if (crease.lean == 0.0) return;
   double least = 1.0, most = -1.0;
@@ -71,21 +66,31 @@ NormalCone widened(const NormalCone& cone, double rad) {
 
 }  // namespace
 
-Box CreasePart::box() const {
+double greatest_product(const std::array<Vec3, 3>& n, const std::array<Vec3, 3>& speed) {
+  const std::array<double, 5> product{
+      glm::dot(n[0], speed[0]), 0.5 * (glm::dot(n[0], speed[1]) + glm::dot(n[1], speed[0])),
+      (glm::dot(n[0], speed[2]) + 4.0 * glm::dot(n[1], speed[1]) + glm::dot(n[2], speed[0])) / 6.0,
+      0.5 * (glm::dot(n[1], speed[2]) + glm::dot(n[2], speed[1])), glm::dot(n[2], speed[2])};
+  double most = 0.0;
+  for (const double x : product) most = std::max(most, std::abs(x));
+  return most;
+}
+
+Box CreaseNet::box() const {
   Box box;
   for (const Vec3& p : curve) box.include(p);
   return box;
 }
 
-NormalCone CreasePart::cone() const {
+NormalCone CreaseNet::cone() const {
   const std::array<Vec3, 6> normals{near[0], near[1], near[2], far[0], far[1], far[2]};
   return widened(cone_of(normals), lean_rad);
 }
 
-CreasePart crease_part(PatchCache& cache, NormalForm form, std::uint32_t t, std::uint32_t side) {
+CreaseNet crease_net(PatchCache& cache, NormalForm form, std::uint32_t t, std::uint32_t side) {
   static constexpr ControlPoint kNear[3][2] = {{b210, b120}, {b021, b012}, {b102, b201}};
   const EdgeLink other = cache.mesh().across(t, side);
-  CreasePart crease;
+  CreaseNet crease;
   {
     const PnPatch& near = cache.patch(t, form);
     crease.curve = {near.control_point(side), near.control_point(kNear[side][0]), near.control_point(kNear[side][1]),
@@ -100,7 +105,7 @@ CreasePart crease_part(PatchCache& cache, NormalForm form, std::uint32_t t, std:
 
 // Along the edge, counterclockwise about its near side, the far normal leans to that side: (T x n).m is negative, a
 // product of Bezier forms.
-bool is_hollow(const CreasePart& crease) {
+bool is_hollow(const CreaseNet& crease) {
   for (std::size_t j = 0; j < 3; ++j) {
     const Vec3 along = crease.curve[j + 1] - crease.curve[j];
     for (const Vec3& n : crease.near) {
@@ -112,7 +117,7 @@ bool is_hollow(const CreasePart& crease) {
   return true;
 }
 
-std::array<VertexPart, 2> VertexPart::halves() const {
+std::array<NormalTriangle, 2> NormalTriangle::halves() const {
   std::size_t longest = 0;
   double most = -1.0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -125,7 +130,7 @@ std::array<VertexPart, 2> VertexPart::halves() const {
   const Vec3 &a = normals[longest], &b = normals[(longest + 1) % 3], &c = normals[(longest + 2) % 3];
   const Vec3 middle = unit(a + b);
   const bool arc = c == a || c == b;
-  return {VertexPart{point, {a, middle, arc ? middle : c}}, VertexPart{point, {middle, b, arc ? b : c}}};
+  return {NormalTriangle{point, {a, middle, arc ? middle : c}}, NormalTriangle{point, {middle, b, arc ? b : c}}};
 }
 
 std::optional<VertexNormals> VertexNormals::around(const ContactMesh& mesh, std::uint32_t t, std::uint32_t corner) {
@@ -147,17 +152,18 @@ std::optional<VertexNormals> VertexNormals::around(const ContactMesh& mesh, std:
   return result;
 }
 
-std::optional<CreasePart> VertexNormals::arc() const {
+std::optional<CreaseNet> VertexNormals::arc() const {
   if (count_ != 2 || !(cone_.cos_half > 1e-3)) return std::nullopt;
-  CreasePart part;
+  CreaseNet part;
   part.curve.fill(point_);
   part.near.fill(normals_[0]);
   part.far.fill(normals_[1]);
   return part;
 }
 
-// Seen from the cone's axis, on a plane across it, they are a convex polygon; its corners by Andrew's chain.
-std::size_t VertexNormals::parts(std::array<VertexPart, kMost>& parts) const {
+// Seen from the cone's axis, on a plane across it, they are a convex polygon; its corners by the monotone chain of
+// Andrew, Another efficient algorithm for convex hulls in two dimensions (1979).
+std::size_t VertexNormals::parts(std::array<NormalTriangle, kMost>& parts) const {
   if (count_ == 0 || !(cone_.cos_half > 1e-3)) return 0;
   if (count_ == 1) {
     parts[0] = {point_, {normals_[0], normals_[0], normals_[0]}};
