@@ -164,6 +164,11 @@ inline constexpr double kMergedPlaces = 10.0;
 /// Contacts whose surroundings one search for rivals remembers, 1.
 inline constexpr std::size_t kKnownContacts = 8;
 
+/// Ratio to the coordinates of finger and triangle (metres of either, summed): what rounding may add to the margin of a
+/// proof that a triangle holds no contact. Larger: contacts near a border are looked at by both triangles, which costs
+/// a proof; smaller: one exactly on a border or a corner is excluded by all triangles around it.
+inline constexpr double kProofRounding = 1e-14;
+
 /// Bisections of a patch in search of a contact, and parts looked at in all; where it holds one, Newton's steps find it
 /// before. More: near a fold fewer false alarms, each of which costs a few surface evaluations; fewer: cheaper beside a
 /// fold (6: 6 % of fandisk's ticks without creases, and one of 1,152,000 ticks on random ground behind a deeper place).

@@ -1,5 +1,6 @@
 #include "core/contact/prove/core_feature_proof.h"
 
+#include "core/contact/prove/certain_margin.h"
 #include "core/contact/prove/core_crease_proof.h"
 #include "core/contact/prove/feature_nets.h"
 #include "core/mesh/vertex_ring.h"
@@ -133,12 +134,13 @@ FeatureExclusion exclude_features_by_core(ContactContext& context, const FingerC
                                           const FeatureMemory* memory, bool glance) {
   const ContactMesh& mesh = context.cache.mesh();
   const std::uint32_t t = features.triangle;
+  const double rounding = rounding_of_margin(core.centre(), mesh.position(t, 0));
   FeatureExclusion result;
   result.margin_m = std::numeric_limits<double>::max();
   const auto ask = [&](std::uint64_t key, auto margin) {
     if (memory && memory->knows(key)) return;
     result.asked[result.asked_count++] = key;
-    result.margin_m = std::min(result.margin_m, margin(result.tests));
+    result.margin_m = std::min(result.margin_m, certain_margin(margin(result.tests), rounding));
     if (!(result.margin_m > 0.0)) result.unproved = key;
   };
   for (std::uint32_t k = 0; k < 3 && result.margin_m > 0.0; ++k) {

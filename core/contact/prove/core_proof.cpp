@@ -3,6 +3,7 @@
 #include "core/base/tolerances.h"
 #include "core/contact/contact_rank.h"
 #include "core/contact/nearest_triangles.h"
+#include "core/contact/prove/certain_margin.h"
 #include "core/contact/prove/core_feature_proof.h"
 #include "core/contact/prove/linear_core.h"
 #include "core/contact/prove/rank_place.h"
@@ -76,7 +77,8 @@ struct PieceLook {
 PieceLook look_at_piece(const PatchPiece& piece, const FingerCore& core, const RankBound& bound, double enough_m,
                         bool last) {
   const PnPatch& patch = piece.patch;
-  const double at_once = piece.depth == 0 ? margin_at_once(patch, core, enough_m) : 0.0;
+  const double rounding = rounding_of_margin(core.centre(), patch.origin);
+  const double at_once = piece.depth == 0 ? certain_margin(margin_at_once(patch, core, enough_m), rounding) : 0.0;
   PieceLook look;
   look.proof.margin_m = at_once;
   look.proof.possible = !(at_once > 0.0);

@@ -1,6 +1,7 @@
 #include "core/contact/prove/face_proof.h"
 
 #include "core/base/tolerances.h"
+#include "core/contact/prove/certain_margin.h"
 
 #include <algorithm>
 #include <array>
@@ -334,7 +335,7 @@ bool find_zero(const Part& part, const Ground& ground, Vec2& uv) {
 
 /// Excludes what can be of the parts of `whole`, where a margin of `enough_m` need not be the widest.
 template <class Slack>
-void bisect_parts(const Part& whole, const Ground& ground, double enough_m, const Slack& slack,
+void bisect_parts(const Part& whole, const Ground& ground, double enough_m, double rounding_m, const Slack& slack,
                   PatchExclusion& result) {
   std::array<Part, kBisections + 2> stack;
   std::size_t size = 0;
@@ -352,7 +353,8 @@ void bisect_parts(const Part& whole, const Ground& ground, double enough_m, cons
     if constexpr (!Slack::kNone) {
       if (part.in_vain(slack)) return give_up();
     }
-    const double here = tests > 0 ? part.margin(enough_m, margin, slack) : 0.0;  // the whole's was asked for
+    const double here =  // the whole's was asked for
+        tests > 0 ? certain_margin(part.margin(enough_m, margin, slack), rounding_m) : 0.0;
     if (here > 0.0) {
       margin = std::min(margin, here);
       continue;
@@ -414,6 +416,7 @@ void multiply_height(const std::array<Vec3, 10>& d, const std::array<Vec3, 6>& n
 /// c - S and N by their control points, in a frame (t, s, axis) about the middle of the normals.
 struct Factors {
   Vec3 centre, t, s, axis;  ///< c relative to corner 0; the directions
+  double rounding_m;        ///< of f
   std::array<Vec3, 10> d;
   std::array<Vec3, 6> n;
 
@@ -426,6 +429,7 @@ struct Factors {
     if (length < 0.1) return false;
     axis = sum / length;
     centre = c - patch.origin;
+    rounding_m = rounding_of_margin(c, patch.origin);
     const Vec3 away = centre - (patch.offsets[b030] + patch.offsets[b003]) / 3.0;
     t = away - glm::dot(away, axis) * axis;
     const double sideways = std::sqrt(glm::dot(t, t));
@@ -518,12 +522,12 @@ static PatchExclusion exclude(const PnPatch& patch, const Factors& factors, doub
   whole.f.fill(Vec2(0.0));
   whole.corner = {Vec2(0.0, 0.0), Vec2(1.0, 0.0), Vec2(0.0, 1.0)};
   multiply_miss(factors.d, factors.n, whole.f, std::make_index_sequence<60>());
-  result.margin_m = whole.margin(enough_m, kUnbounded, slack);
+  result.margin_m = certain_margin(whole.margin(enough_m, kUnbounded, slack), factors.rounding_m);
   if (result.margin_m > 0.0) result.possible = false;
   if (result.margin_m > 0.0 && result.margin_m >= enough_m) return result;
   result.least_height_m = least_height_m(factors, slack);
   if (!result.possible) return result;
-  bisect_parts(whole, factors.ground(sides), enough_m, slack, result);
+  bisect_parts(whole, factors.ground(sides), enough_m, factors.rounding_m, slack, result);
   if (result.margin_m > 0.0) result.possible = false;
   if (!result.possible) return result;
   if constexpr (!Slack::kNone) {
@@ -578,7 +582,8 @@ double corner_exclusion(const ContactMesh& mesh, std::uint32_t t, const Vec3& ce
   const auto square = [](const Vec3& v) { return glm::dot(v, v); };
   const double wide2 = std::max({square(a - mean), square(b - mean), square(c - mean)});
   const double least = std::min({glm::dot(a, mean), glm::dot(b, mean), glm::dot(c, mean)});
-  return least > 0.0 ? std::max(0.0, least / std::sqrt(square(mean)) - std::sqrt(wide2)) : 0.0;
+  if (!(least > 0.0)) return 0.0;
+  return certain_margin(least / std::sqrt(square(mean)) - std::sqrt(wide2), rounding_of_margin(centre, p[0]));
 }
 
 }  // namespace tangent

@@ -1,5 +1,6 @@
 #include "core/contact/prove/feature_proof.h"
 
+#include "core/contact/prove/certain_margin.h"
 #include "core/contact/prove/feature_nets.h"
 #include "core/mesh/vertex_ring.h"
 
@@ -200,6 +201,7 @@ double exclude_feature_contacts(PatchCache& cache, const TriangleFeatures& featu
                                 const Vec3& centre, const RankBound& bound, double enough_m, FeatureMemory* memory) {
   const ContactMesh& mesh = cache.mesh();
   const std::uint32_t t = features.triangle;
+  const double rounding = rounding_of_margin(centre, mesh.position(t, 0));
   double margin = std::numeric_limits<double>::max();
   for (std::uint32_t k = 0; k < 3; ++k) {
     if (!features.has_side(k) || mesh.edge_kind(t, k) == EdgeKind::smooth ||
@@ -220,7 +222,8 @@ double exclude_feature_contacts(PatchCache& cache, const TriangleFeatures& featu
           safe, over_face(edge_ends(mesh, cache.patch(other.triangle, form), other.triangle, other.edge), centre));
     if (safe < enough_m)
       safe = std::max(safe, bound.way_to(curve_distance(ends.curve, centre, bound.after(enough_m), kCurveHalvings)));
-    margin = std::min(margin, std::max(0.0, safe));
+    safe = certain_margin(safe, rounding);
+    margin = std::min(margin, safe);
     if (memory && safe > 0.0) memory->add(edge_key(mesh, t, k));
   }
   for (std::uint32_t k = 0; k < 3; ++k) {
@@ -234,7 +237,8 @@ double exclude_feature_contacts(PatchCache& cache, const TriangleFeatures& featu
       safe = std::max(safe, glm::dot(d, start) / std::sqrt(glm::dot(start, start)));
     }
     if (safe < enough_m || !(safe > 0.0)) safe = std::max(safe, vertex_pull(mesh, t, k, centre, faces));
-    margin = std::min(margin, std::max(0.0, safe));
+    safe = certain_margin(safe, rounding);
+    margin = std::min(margin, safe);
     if (!memory) continue;
     if (faces > kManyFaces) memory->add_dear(vertex_key(mesh, t, k), safe > 0.0);
     if (faces <= kManyFaces && safe > 0.0) memory->add(vertex_key(mesh, t, k));

