@@ -64,7 +64,11 @@ void ContactScene::build_parts(std::span<const std::uint32_t> parts, const RunBo
   const auto build = [&] {
     for (std::size_t i = next++; i < parts.size(); i = next++) build_part(parts[i]);
   };
-  run_both(build, build);
+  if (parts.size() > 1) {
+    run_both(build, build);
+  } else {
+    build();
+  }
 }
 
 void ContactScene::build_far_parts(const RunBoth& run_both) const {
