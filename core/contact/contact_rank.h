@@ -13,6 +13,11 @@ inline double contact_rank(const Finger& finger, const PlaneContact& contact) {
   return reach - (contact.height_m < 0.0 ? contact.height_m : contact.penetration_m);
 }
 
+/// Whether a finger that is not round touches nothing, seen from this contact.
+inline bool is_free(const Finger& finger, const PlaneContact& contact) {
+  return !is_round(finger) && contact.height_m >= 0.0 && !(contact.penetration_m > 0.0);
+}
+
 /// Up to which rank contacts count, and how fast the gap to one behind it closes at most while the finger moves.
 struct RankBound {
   double rank_m = 0.0;

@@ -25,6 +25,8 @@ struct ContactContext {
 
   /// A length given in switch hystereses (base/tolerances.h), m.
   double hystereses_m(double count) const { return count * settings.switch_hysteresis_m; }
+  /// Rank (contact_rank.h) of places that the finger touches, or may before long.
+  double soon_touched_rank() const { return finger.reach_m() + hystereses_m(kSoonTouched); }
 };
 
 }  // namespace tangent

@@ -18,12 +18,12 @@ Gone gone_to(const ContactContext& context, const TickState& state, double gone)
 /// Asks whether another place can be deeper than the followed contact, and only then looks.
 void watch_others(ContactContext& context, const SearchStructures& search, TickState& state, DecidedContact& decided) {
   const double rank = contact_rank(context.finger, decided.contact.contact);
-  const double bound = takeover_bound_m(context.settings, rank);
+  const Takeover takeover = takeover_from(context, decided.contact.contact);
   const double gone = gone_m(state.clearance, context.finger, context.pose);
-  if (!deeper_possible(state.clearance, context.pose, gone, bound)) return;
+  if (!deeper_possible(state.clearance, context.pose, gone, takeover.bound_m)) return;
   const double ahead = look_ahead_m(context, rank, state.clearance.ahead);
-  const RivalResult rival = find_rival(context, search, decided.contact, {bound, ahead, false}, state.clearance,
-                                       gone_to(context, state, gone));
+  const RivalResult rival = find_rival(context, search, decided.contact, {takeover.bound_m, ahead, takeover.stays},
+                                       state.clearance, gone_to(context, state, gone));
   decided.searching = rival.searching;
   const double depth = state.unentered ? 0.0 : decided.contact.contact.penetration_m;
   const bool taken_over = decide_rival(context, rival, depth, state.plane, decided);
@@ -57,14 +57,14 @@ double touching_bound_m(const ContactContext& context, const TouchedContacts& to
 
 /// Looks for places that are touched and not followed yet. True where a deeper one that does not push with others takes
 /// over.
-bool look_for_touched(ContactContext& context, const SearchStructures& search, double takeover_m, TickState& state,
-                      DecidedContact& decided, TouchedContacts& touched) {
-  const double bound = std::max(takeover_m, touching_bound_m(context, touched));
+bool look_for_touched(ContactContext& context, const SearchStructures& search, const Takeover& takeover,
+                      TickState& state, DecidedContact& decided, TouchedContacts& touched) {
+  const double bound = std::max(takeover.bound_m, touching_bound_m(context, touched));
   const double gone = gone_m(state.clearance, context.finger, context.pose);
   if (!deeper_possible(state.clearance, context.pose, gone, bound)) return false;
   const double rank = contact_rank(context.finger, decided.contact.contact);
   const double ahead = look_ahead_m(context, rank, state.clearance.ahead);
-  const bool stays = bound > takeover_m && !touched.full();
+  const bool stays = takeover.stays || (bound > takeover.bound_m && !touched.full());
   RivalResult rival = find_rival(context, search, decided.contact, {bound, ahead, stays, &touched}, state.clearance,
                                  gone_to(context, state, gone));
   state.clearance = rival.clearance;
@@ -83,7 +83,7 @@ bool look_for_touched(ContactContext& context, const SearchStructures& search, d
       touched.add(c, kMergedPlaces * context.settings.tolerance_m);
   if (touched.count > followed || touched.full()) decided.places_changed = true;
   rival.deeper = rival.deeper && !pushes_with_others(rival.best.contact) &&
-                 contact_rank(context.finger, rival.best.contact) < takeover_m;
+                 contact_rank(context.finger, rival.best.contact) < takeover.bound_m;
   if (!decide_rival(context, rival, depth, state.plane, decided)) return false;
   state.clearance = Clearance{};
   state.unentered = 0;
@@ -101,11 +101,10 @@ void watch_touched(ContactContext& context, const SearchStructures& search, Tick
     decided.places_changed = !followed.all || followed.folded;
   }
   const PlaneContact& tracked = decided.contact.contact;
-  const double takeover = takeover_bound_m(context.settings, contact_rank(context.finger, tracked),
-                                           tracked.penetration_m > 0.0 ? kTremor : 1.0);
+  const Takeover takeover = takeover_from(context, tracked, tracked.penetration_m > 0.0 ? kTremor : 1.0);
   if (look_for_touched(context, search, takeover, state, decided, touched) || state.unentered) return;
   if (!is_behind_in_inner_edge(context, decided.contact, touched))
-    decide_touched(context, takeover, touched, state.plane, decided);
+    decide_touched(context, takeover.bound_m, touched, state.plane, decided);
   if (can_lack_walls(context.cache.mesh(), context.finger, context.pose.position, decided.contact.plane, state.touched))
     add_walls(context, search.nearest, state.touched, state.plane, decided, touched);
 }

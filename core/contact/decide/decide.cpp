@@ -14,6 +14,13 @@ void adopt(const IterationResult& contact, const TrackedPlane& kept, DecidedCont
 
 }  // namespace
 
+Takeover takeover_from(const ContactContext& context, const PlaneContact& followed, double hystereses) {
+  const double bound = takeover_bound_m(context.settings, contact_rank(context.finger, followed), hystereses);
+  if (!is_free(context.finger, followed)) return {bound, false};
+  const double soon = context.soon_touched_rank();
+  return {std::min(bound, soon), soon < bound};
+}
+
 void decide_followed(Followed followed, bool first, DecidedContact& decided) {
   decided.event = followed == Followed::branched ? TickEvent::branch : TickEvent::none;
   decided.evaluations = first ? 0 : decided.contact.evaluations;

@@ -29,6 +29,15 @@ inline double takeover_bound_m(const SolverSettings& settings, double rank, doub
   return rank - hystereses * settings.switch_hysteresis_m;
 }
 
+/// Which other places count.
+struct Takeover {
+  double bound_m = 0.0;  ///< rank that they must be below
+  bool stays = false;    ///< however the followed one's changes
+};
+/// Those that are deeper by so many hystereses. Of a finger that is not round and touches nothing, only those that it
+/// may soon touch: where the others are nobody feels.
+Takeover takeover_from(const ContactContext& context, const PlaneContact& followed, double hystereses = 1.0);
+
 /// The followed contact stays (decided.contact holds it), until another is decided on. `first`: there was none.
 void decide_followed(Followed followed, bool first, DecidedContact& decided);
 

@@ -82,17 +82,19 @@ double known_radius(const ContactContext& context, const TrackedPlane& kept) {
 }
 
 /// A rank that the deepest contact can hardly exceed: that of the raw mesh's nearest triangle, with room for its bulge.
-/// What a search finds below it is what one without it would have found; where it finds nothing it was in vain.
+/// What a search finds below it is what one without it would have found; where it finds nothing it was in vain. Of a
+/// finger that is not round and whose centre is outside what it may soon touch: where that is nothing, any place does.
 double likely_rank(ContactContext& context, const SearchStructures& search, double radius) {
-  if (!is_round(context.finger)) return kUnlimited;
   const Vec3& centre = context.pose.position;
   const NearestHit hit = search.nearest.nearest(centre, radius);
   if (!hit) return kUnlimited;
-  const double bulge = patch_bulge(context.cache.patch(hit.triangle, context.settings.normal_form));
-  const double further = (1.0 + kImplausibleShare) * hit.distance_m + 2.0 * bulge;
   const auto n = context.cache.mesh().normals(hit.triangle);
   const Vec3 normal = (1.0 - hit.u - hit.v) * n[0] + hit.u * n[1] + hit.v * n[2];
-  return glm::dot(centre - hit.point, normal) >= 0.0 ? further : context.finger.reach_m() + further;
+  const bool outside = glm::dot(centre - hit.point, normal) >= 0.0;
+  if (!is_round(context.finger)) return outside ? context.soon_touched_rank() : kUnlimited;
+  const double bulge = patch_bulge(context.cache.patch(hit.triangle, context.settings.normal_form));
+  const double further = (1.0 + kImplausibleShare) * hit.distance_m + 2.0 * bulge;
+  return outside ? further : context.finger.reach_m() + further;
 }
 
 /// Every contact of a finger at the context's pose, however far off. `core`: room for that of one that is not round.
@@ -200,6 +202,20 @@ void seed_by_distance(ContactContext& context, const SearchStructures& search, s
   }
 }
 
+/// A place that a finger touches nothing at, near where the raw mesh is nearest. True where there is one.
+bool seed_free(ContactContext& context, const SearchStructures& search, double radius, Selection& selection) {
+  std::array<NearestHit, kSeeds / 4> hits;
+  const std::size_t count = search.nearest.nearest_several(context.pose.position, radius, std::span(hits));
+  for (std::size_t i = 0; i < count; ++i) {
+    context.seed = static_cast<std::uint8_t>(i + 1);
+    IterationResult r;
+    iterate(context, face_at(hits[i].triangle, hits[i].u, hits[i].v), seed_budget(context.finger), r);
+    if (r.converged() && is_free(context.finger, r.contact)) return selection.offer(context, r);
+    selection.result.evaluations += r.evaluations;
+  }
+  return false;
+}
+
 /// Where the raw mesh's nearest point is on a hollow crease or corner, the contact that a finger pressed into it has
 /// there. Nearest to the centre, of a finger that is not round to what it presses against the nearest place with.
 void seed_in_hollow(ContactContext& context, const SearchStructures& search, double radius, Selection& selection) {
@@ -280,7 +296,10 @@ SeedResult seed_contact(ContactContext& context, const SearchStructures& search,
     // A first tick, or one after a leap, may take its time.
     const bool in_motion = kept.feature != Feature::none && context.moved_m <= context.hystereses_m(kLeapOfFinger);
     if (!in_vain) seed_by_hierarchy(context, search, most, failed, selection);
-    if (!(selection.group == 0 && selection.value < most)) {
+    bool enough = selection.group == 0 && selection.value < most;
+    if (!enough && most < kUnlimited && !is_round(context.finger))
+      enough = seed_free(context, search, known_radius(context, kept), selection);
+    if (!enough) {
       if (parts && in_motion) {
         constexpr int kFirstPart = 8;  // of a tick's work, in the one in which the contact was lost
         const int work = in_vain ? kTickWork : kFirstPart * kTickWork;
