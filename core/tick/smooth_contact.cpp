@@ -119,6 +119,12 @@ bool go_on_with_touched(ContactContext& context, TickState& state, DecidedContac
   return found || go_on_with_wall(context, state.touched, decided);
 }
 
+/// A first tick, or one after a leap, whose search for a start was not through: what is found later may be deeper, as
+/// after a search that came late.
+void allow_deeper(ContactContext& context, const SeedResult& seeded) {
+  if (seeded.searching) context.late_m = std::max(context.late_m, context.hystereses_m(kMostLateEntry));
+}
+
 /// Where following failed.
 void start_anew(ContactContext& context, const SearchStructures& search, bool first, TickState& state,
                 DecidedContact& decided) {
@@ -127,6 +133,7 @@ void start_anew(ContactContext& context, const SearchStructures& search, bool fi
   const SeedResult seeded =
       seed_contact(context, search, state.plane, in_vain, state.has_previous ? &state.clearance : nullptr);
   decided.searching = seeded.searching;
+  if (first || was_put_elsewhere(step_of(context))) allow_deeper(context, seeded);
   decide_start(seeded, state.plane, decided);
   if (decided.converged()) state.clearance = Clearance{};
 }
@@ -137,6 +144,7 @@ bool start_after_leap(ContactContext& context, const SearchStructures& search, c
                       DecidedContact& decided) {
   if (!was_put_elsewhere(step_of(context)) || context.settings.method != Method::robust) return false;
   const SeedResult seeded = seed_contact(context, search, state.plane);
+  allow_deeper(context, seeded);
   const double rank = contact_rank(context.finger, decided.contact.contact);
   const bool deeper = seeded.best.converged() &&
                       contact_rank(context.finger, seeded.best.contact) < takeover_bound_m(context.settings, rank);

@@ -19,6 +19,7 @@ namespace tangent {
 namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::max();
+constexpr int kAllWork = std::numeric_limits<int>::max();
 constexpr double kAnyDistance = std::numeric_limits<double>::infinity();
 
 SurfacePlace face_at(std::uint32_t triangle, double u, double v) {
@@ -107,6 +108,8 @@ ContactQuery query_for_all(ContactContext& context, std::optional<FingerCore>& c
   return query;
 }
 
+SearchWork work_of(const Finger& finger) { return is_round(finger) ? SearchWork::of_round() : SearchWork::of_core(); }
+
 /// A part of one search of everything, from the pose that it began at. What it finds there is led to the present pose.
 /// False: it goes on at the next tick.
 bool seed_in_parts(ContactContext& context, const SearchStructures& search, int work, Clearance& begun,
@@ -122,7 +125,7 @@ bool seed_in_parts(ContactContext& context, const SearchStructures& search, int 
   std::optional<FingerCore> core;
   ContactQuery query = query_for_all(there, core);
   query.most_work = work;
-  const SearchWork cost = is_round(context.finger) ? SearchWork::of_round() : SearchWork::of_core();
+  const SearchWork cost = work_of(context.finger);
   FeatureMemory features;
   double rank = std::numeric_limits<double>::max();
   const auto visit = [&](std::uint32_t t, ContactQuery& q) {
@@ -131,7 +134,7 @@ bool seed_in_parts(ContactContext& context, const SearchStructures& search, int 
     q.work += cost.look + cost.test * proof.tests;
     if (proof.margin_m > 0.0) return true;
     IterationResult then, now;
-    iterate(there, start_on(there, part, proof), seed_budget(context.finger), then);
+    iterate(there, start_on(there, part, proof), kSeedBudget, then);
     q.work += cost.evaluation * then.evaluations;
     selection.result.evaluations += then.evaluations;
     if (!then.converged() || !(contact_rank(context.finger, then.contact) < rank)) return true;
@@ -145,32 +148,41 @@ bool seed_in_parts(ContactContext& context, const SearchStructures& search, int 
   return !begun.under_way;
 }
 
-/// Contacts of a rank below `most`. What failed before is not tried again: it would start from the same place.
-void seed_by_hierarchy(ContactContext& context, const SearchStructures& search, double most, FailedStarts& failed,
-                       Selection& selection) {
+/// Contacts of a rank below `most`. What failed before is not tried again: it would start from the same place. False:
+/// the work was used up before the end.
+bool seed_by_hierarchy(ContactContext& context, const SearchStructures& search, double most, int work,
+                       FailedStarts& failed, Selection& selection) {
   std::optional<FingerCore> core;
   ContactQuery query = query_for_all(context, core);
   if (most < std::numeric_limits<double>::max()) limit_query(query, context.finger, most);
+  query.most_work = work;
+  const SearchWork cost = work_of(context.finger);
+  const int budget = work < kAllWork ? kSeedBudget : seed_budget(context.finger);
   int solves = 0;
   FeatureMemory features;
-  search.hierarchy.visit(query, [&](std::uint32_t t, ContactQuery& q) {
+  const auto visit = [&](std::uint32_t t, ContactQuery& q) {
     if (failed.has(t, q.part)) return true;
     PartOfTriangle part{t, q.part};
     const PatchExclusion proof =
         exclude_part(context, part, {selection.group == 0 ? selection.value : most}, 0.0, &features);
+    q.work += cost.look + cost.test * proof.tests;
     if (proof.margin_m > 0.0) return true;
     context.seed = static_cast<std::uint8_t>(std::min(++solves, 255));
     IterationResult r;
-    iterate(context, start_on(context, part, proof), seed_budget(context.finger), r);
+    iterate(context, start_on(context, part, proof), budget, r);
+    q.work += cost.evaluation * r.evaluations;
     if (!selection.offer(context, r)) {
       failed.add(t, q.part);
       if (part.triangle != t) failed.add(part.triangle, q.part);
     }
     if (selection.group == 0) limit_query(q, context.finger, std::min(most, selection.value));
     return solves < kMaxSolves;
-  });
-  if (solves >= kMaxSolves) failed.break_off();
+  };
+  VisitPlace from;
+  const bool through = search.hierarchy.visit_from(from, query, visit);
+  if (!through || solves >= kMaxSolves) failed.break_off();
   context.core = nullptr;
+  return through;
 }
 
 /// Whether a contact lies so much further off than the raw mesh that a nearer one must have been missed. Asks only for
@@ -282,6 +294,53 @@ void face_the_finger(ContactContext& context, const SearchStructures& search, Se
   context.trace->push(record);
 }
 
+/// How much a search for a start does in one tick (search_work.h): up to the likely rank, and of everything.
+struct StartWork {
+  bool in_motion = false;  ///< neither a first tick nor one after a leap
+  int likely = kAllWork, everything = kAllWork;
+};
+
+StartWork start_work(const ContactContext& context, const TrackedPlane& kept, bool in_vain, bool in_parts) {
+  constexpr int kLost = 4;    // ticks' work, of either, in the tick in which the contact was lost
+  constexpr int kStart = 12;  // of a finger that is not round; a round one's ends before long
+  const bool in_motion = kept.feature != Feature::none && context.moved_m <= context.hystereses_m(kLeapOfFinger);
+  StartWork work{in_motion};
+  if (in_motion && in_parts) {
+    work.likely = kLost * kTickWork;
+    work.everything = in_vain ? tick_work(context.late_m, context.hystereses_m(kMostLate)) : kLost * kTickWork;
+  } else if (!is_round(context.finger)) {
+    work.likely = work.everything = kStart * kTickWork;
+  }
+  return work;
+}
+
+void seed_robustly(ContactContext& context, const SearchStructures& search, const TrackedPlane& kept, bool in_vain,
+                   Clearance* parts, Selection& selection) {
+  const double radius = known_radius(context, kept);
+  const double most = in_vain ? kUnlimited : likely_rank(context, search, radius);
+  const StartWork work = start_work(context, kept, in_vain, parts != nullptr);
+  bool& searching = selection.result.searching;
+  FailedStarts failed;
+  if (!in_vain) searching = !seed_by_hierarchy(context, search, most, work.likely, failed, selection);
+  bool enough = searching || (selection.group == 0 && selection.value < most);
+  if (!enough && most < kUnlimited && !is_round(context.finger)) enough = seed_free(context, search, radius, selection);
+  if (!enough && parts && work.in_motion) {
+    searching = !seed_in_parts(context, search, work.everything, *parts, selection);
+    if (searching) failed.break_off();
+  } else if (!enough && (in_vain || most < kUnlimited)) {
+    searching = !seed_by_hierarchy(context, search, kUnlimited, work.everything, failed, selection);
+  }
+  seed_in_hollow(context, search, radius, selection);
+  if (selection.group != 0 || implausible(context, search, selection.result.best, selection.value))
+    seed_by_distance(context, search, (in_vain && work.in_motion) || searching ? kSeeds / 4 : kSeeds,
+                     std::numeric_limits<double>::infinity(),
+                     work.in_motion ? kSeedBudget : seed_budget(context.finger), &failed, work.in_motion, selection);
+  if (selection.group == 1 && !is_round(context.finger)) leave_unstable(context, selection);
+  if (selection.group == 2 ||
+      (selection.group == 0 && implausible(context, search, selection.result.best, selection.value)))
+    face_the_finger(context, search, selection);
+}
+
 }  // namespace
 
 SeedResult seed_contact(ContactContext& context, const SearchStructures& search, const TrackedPlane& kept, bool in_vain,
@@ -291,33 +350,7 @@ SeedResult seed_contact(ContactContext& context, const SearchStructures& search,
     seed_by_distance(context, search, 1, known_radius(context, kept), context.settings.max_iterations, nullptr, false,
                      selection);
   } else {
-    const double most = in_vain ? kUnlimited : likely_rank(context, search, known_radius(context, kept));
-    FailedStarts failed;
-    // A first tick, or one after a leap, may take its time.
-    const bool in_motion = kept.feature != Feature::none && context.moved_m <= context.hystereses_m(kLeapOfFinger);
-    if (!in_vain) seed_by_hierarchy(context, search, most, failed, selection);
-    bool enough = selection.group == 0 && selection.value < most;
-    if (!enough && most < kUnlimited && !is_round(context.finger))
-      enough = seed_free(context, search, known_radius(context, kept), selection);
-    if (!enough) {
-      if (parts && in_motion) {
-        constexpr int kFirstPart = 8;  // of a tick's work, in the one in which the contact was lost
-        const int work = in_vain ? kTickWork : kFirstPart * kTickWork;
-        selection.result.searching = !seed_in_parts(context, search, work, *parts, selection);
-        if (selection.result.searching) failed.break_off();
-      } else if (in_vain || most < kUnlimited) {
-        seed_by_hierarchy(context, search, kUnlimited, failed, selection);
-      }
-    }
-    seed_in_hollow(context, search, known_radius(context, kept), selection);
-    if (selection.group != 0 || implausible(context, search, selection.result.best, selection.value))
-      seed_by_distance(context, search, in_vain && in_motion ? kSeeds / 4 : kSeeds,
-                       std::numeric_limits<double>::infinity(), seed_budget(context.finger), &failed, in_motion,
-                       selection);
-    if (selection.group == 1 && !is_round(context.finger)) leave_unstable(context, selection);
-    if (selection.group == 2 ||
-        (selection.group == 0 && implausible(context, search, selection.result.best, selection.value)))
-      face_the_finger(context, search, selection);
+    seed_robustly(context, search, kept, in_vain, parts, selection);
   }
   context.seed = 0;
   if (context.settings.method == Method::robust && selection.group == 1) {

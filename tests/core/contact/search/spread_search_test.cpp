@@ -2,6 +2,7 @@
 #include "core/contact/decide/decide.h"
 #include "core/contact/prove/late_hierarchy.h"
 #include "core/contact/search_work.h"
+#include "tests/core/fingers.h"
 #include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>
@@ -194,6 +195,34 @@ TEST_CASE("where rough ground offers no contact it is looked for in parts, and f
   CHECK(parts > 0);
   CHECK(most < 400);
   CHECK(missed * 10 <= facing);
+}
+
+TEST_CASE("an ellipsoid or a capsule that loses its contact on spikes looks for another in parts") {
+  Random random(3);
+  const auto noise = [&](double, double) { return 1.2e-3 * (random.in(-1.0, 1.0) + random.in(-1.0, 1.0)); };
+  const ScenePtr spikes = scene_of(height_field(0.040, 60, noise));
+  for (const FingerShape shape : {FingerShape::ellipsoid, FingerShape::capsule}) {
+    Preset preset = sphere_preset(0.020, Method::robust);
+    preset.finger = finger_of(shape);
+    Stepper stepper(spikes);
+    TickState state;
+    int most = 0, first = 0, facing = 0, lost = 0;
+    const int ticks = at_least(1000, 3000);
+    for (int i = 0; i < ticks; ++i) {
+      const double t = 1e-3 * i;
+      const Vec3 at(0.025 * std::sin(3.1 * t), 0.025 * std::cos(2.3 * t), 0.002 + 0.003 * std::sin(11.0 * t));
+      const TickOutput out = stepper.step(preset, at_position(t, at), state);
+      (i > 0 ? most : first) = std::max(i > 0 ? most : first, static_cast<int>(out.iterations));
+      facing += out.status == TickStatus::facing;
+      lost += out.event == TickEvent::reseed;
+    }
+    MESSAGE("at most " << most << " planes in a tick, " << first << " in the first; " << lost << " lost, " << facing
+                       << " facing of " << ticks);
+    CHECK(lost > 0);
+    CHECK(most < 2000);
+    CHECK(first < 2000);
+    CHECK(facing * 20 < ticks);
+  }
 }
 
 TEST_CASE("the state alone carries a search that is under way from one tick to the next") {
