@@ -185,7 +185,7 @@ class WaitFor {
 Status solve(const SolveOptions& options, bool& interrupted) {
   SolveReport report;
   const Stopwatch loading;
-  std::optional<KeptMemory> kept(std::in_place);
+  std::optional<KeptMemory> kept(std::in_place, memory_to_open(options.mesh.file));
   Result<PresetFile> preset = load_preset(options.preset);
   if (!preset) return tl::unexpected(preset.error());
   if (Status status = probe_outputs(options); !status) return status;
