@@ -119,43 +119,6 @@ bool go_on_with_touched(ContactContext& context, TickState& state, DecidedContac
   return found || go_on_with_wall(context, state.touched, decided);
 }
 
-/// A first tick, or one after a leap, whose search for a start was not through: what is found later may be deeper, as
-/// after a search that came late.
-void allow_deeper(ContactContext& context, const SeedResult& seeded) {
-  if (seeded.searching) context.late_m = std::max(context.late_m, context.hystereses_m(kMostLateEntry));
-}
-
-/// Where following failed.
-void start_anew(ContactContext& context, const SearchStructures& search, bool first, TickState& state,
-                DecidedContact& decided) {
-  const bool in_vain = !first && !found_before(state);  // not where there was no search at all, as in an unready tick
-  if (!in_vain) state.clearance = Clearance{};
-  const SeedResult seeded =
-      seed_contact(context, search, state.plane, in_vain, state.has_previous ? &state.clearance : nullptr);
-  decided.searching = seeded.searching;
-  if (first || was_put_elsewhere(step_of(context))) allow_deeper(context, seeded);
-  decide_start(seeded, state.plane, decided);
-  if (decided.converged()) state.clearance = Clearance{};
-}
-
-/// A finger that has been put elsewhere starts at the deepest place there, unless that is the one that was followed.
-/// True where it did.
-bool start_after_leap(ContactContext& context, const SearchStructures& search, const TickState& state,
-                      DecidedContact& decided) {
-  if (!was_put_elsewhere(step_of(context)) || context.settings.method != Method::robust) return false;
-  const SeedResult seeded = seed_contact(context, search, state.plane);
-  allow_deeper(context, seeded);
-  const double rank = contact_rank(context.finger, decided.contact.contact);
-  const bool deeper = seeded.best.converged() &&
-                      contact_rank(context.finger, seeded.best.contact) < takeover_bound_m(context.settings, rank);
-  if (deeper) {
-    decide_start(seeded, state.plane, decided);
-  } else {
-    decided.evaluations += seeded.evaluations;
-  }
-  return deeper;
-}
-
 /// Whether a place at which a lost contact was started anew can't have been entered.
 bool is_new_unentered(ContactContext& context, const TickState& state, const IterationResult& found, int& evaluations) {
   const FingerStep step = step_of(context);
@@ -166,6 +129,43 @@ bool is_new_unentered(ContactContext& context, const TickState& state, const Ite
   last.plane.normal = state.last_converged.normal;
   last.contact = contact_on_plane(context.finger, context.pose, state.last_converged.point, last.plane.normal);
   return is_far_side({found.plane, found.contact}, last);
+}
+
+/// Where following failed.
+void start_anew(ContactContext& context, const SearchStructures& search, bool first, TickState& state,
+                DecidedContact& decided) {
+  const bool in_vain = !first && !found_before(state);  // not where there was no search at all, as in an unready tick
+  if (!in_vain) state.clearance = Clearance{};
+  const SeedResult seeded =
+      seed_contact(context, search, state.plane, in_vain, state.has_previous ? &state.clearance : nullptr);
+  decided.searching = seeded.searching;
+  if (seeded.searching && seeded.best.converged() &&
+      is_new_unentered(context, state, seeded.best, decided.evaluations)) {
+    // Where the search is not through, the place that the finger came into may be still to come.
+    decided.evaluations += seeded.evaluations;
+    decided.contact.stop = StopReason::facing;
+    decided.event = TickEvent::reseed;
+    return;
+  }
+  decide_start(seeded, state.plane, decided);
+  if (decided.converged()) state.clearance = Clearance{};
+}
+
+/// A finger that has been put elsewhere starts at the deepest place there, unless that is the one that was followed.
+/// True where it did.
+bool start_after_leap(ContactContext& context, const SearchStructures& search, const TickState& state,
+                      DecidedContact& decided) {
+  if (!was_put_elsewhere(step_of(context)) || context.settings.method != Method::robust) return false;
+  const SeedResult seeded = seed_contact(context, search, state.plane);
+  const double rank = contact_rank(context.finger, decided.contact.contact);
+  const bool deeper = seeded.best.converged() &&
+                      contact_rank(context.finger, seeded.best.contact) < takeover_bound_m(context.settings, rank);
+  if (deeper) {
+    decide_start(seeded, state.plane, decided);
+  } else {
+    decided.evaluations += seeded.evaluations;
+  }
+  return deeper;
 }
 
 }  // namespace

@@ -148,6 +148,18 @@ bool seed_in_parts(ContactContext& context, const SearchStructures& search, int 
   return !begun.under_way;
 }
 
+/// A capsule's side takes more steps, where what comes of it may count.
+void solve_start(ContactContext& context, const SurfacePlace& start, double most, IterationResult& r) {
+  iterate(context, start, kSeedBudget, r);
+  const int more = seed_budget(context.finger) - r.evaluations;
+  const bool ran_out = !r.converged() && r.stop != StopReason::unstable && r.evaluations >= kSeedBudget;
+  if (!ran_out || more <= 0 || !(contact_rank(context.finger, r.contact) < most)) return;
+  const int evaluations = r.evaluations;
+  const TrackedPlane so_far = r.plane;
+  iterate(context, so_far, more, r);
+  r.evaluations += evaluations;
+}
+
 /// Contacts of a rank below `most`. What failed before is not tried again: it would start from the same place. False:
 /// the work was used up before the end.
 bool seed_by_hierarchy(ContactContext& context, const SearchStructures& search, double most, int work,
@@ -157,7 +169,6 @@ bool seed_by_hierarchy(ContactContext& context, const SearchStructures& search, 
   if (most < std::numeric_limits<double>::max()) limit_query(query, context.finger, most);
   query.most_work = work;
   const SearchWork cost = work_of(context.finger);
-  const int budget = work < kAllWork ? kSeedBudget : seed_budget(context.finger);
   int solves = 0;
   FeatureMemory features;
   const auto visit = [&](std::uint32_t t, ContactQuery& q) {
@@ -169,7 +180,7 @@ bool seed_by_hierarchy(ContactContext& context, const SearchStructures& search, 
     if (proof.margin_m > 0.0) return true;
     context.seed = static_cast<std::uint8_t>(std::min(++solves, 255));
     IterationResult r;
-    iterate(context, start_on(context, part, proof), budget, r);
+    solve_start(context, start_on(context, part, proof), selection.group == 0 ? selection.value : most, r);
     q.work += cost.evaluation * r.evaluations;
     if (!selection.offer(context, r)) {
       failed.add(t, q.part);
@@ -301,16 +312,12 @@ struct StartWork {
 };
 
 StartWork start_work(const ContactContext& context, const TrackedPlane& kept, bool in_vain, bool in_parts) {
-  constexpr int kLost = 4;    // ticks' work, of either, in the tick in which the contact was lost
-  constexpr int kStart = 12;  // of a finger that is not round; a round one's ends before long
+  constexpr int kLost = 4, kLostOfCore = 14;  // ticks' work, in the one in which the contact was lost
   const bool in_motion = kept.feature != Feature::none && context.moved_m <= context.hystereses_m(kLeapOfFinger);
   StartWork work{in_motion};
-  if (in_motion && in_parts) {
-    work.likely = kLost * kTickWork;
-    work.everything = in_vain ? tick_work(context.late_m, context.hystereses_m(kMostLate)) : kLost * kTickWork;
-  } else if (!is_round(context.finger)) {
-    work.likely = work.everything = kStart * kTickWork;
-  }
+  if (!in_motion || !in_parts) return work;
+  work.likely = (is_round(context.finger) ? kLost : kLostOfCore) * kTickWork;
+  work.everything = in_vain ? tick_work(context.late_m, context.hystereses_m(kMostLate)) : kLost * kTickWork;
   return work;
 }
 
