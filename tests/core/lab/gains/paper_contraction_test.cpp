@@ -61,8 +61,8 @@ TEST_CASE("on an edge of radius r every plane leaves (h/r)/(2 + h/r) whatever th
                                        out.triangle, out.u, out.v);
     CHECK(left == doctest::Approx(theory).epsilon(0.01));
   }
-  // Long and short steps take turns without end, and leave less on average (rounded_edge_test.cpp), but no worst run of
-  // them leaves more.
+  // Long and short steps take turns without end, and leave less on average (rounded_edge_test.cpp); the worst run of
+  // them leaves no more.
   CHECK(contraction_at(scene->mesh(), with(1.46, 0.0782), out.triangle, out.u, out.v) < 1.001 * theory);
   CHECK(contraction_at(scene->mesh(), with(1.0, 0.0), out.triangle, out.u, out.v) > 1.0);
 }
