@@ -218,6 +218,42 @@ double FingerCore::flattest_near(const NormalCone& normals, double way_m) const 
   return ball_m_ + largest_radius(half_width(normals.axis) - longest_m_ * (chord + turn_within(way_m)));
 }
 
+// |A N|^2 at an angle x from the axis a is h^2 cos^2 x + 2 sin x cos x (A a).(A t) + |A t|^2 sin^2 x, h = |A a|, with t
+// across a; (A a).(A t) is no more than what A^2 a has across a, and |A t|^2 than what the other axes leave.
+double FingerCore::least_rank(const NormalCone& normals) const {
+  const Vec3 y = scaled(normals.axis), z = axes_m_ * y;
+  const double longest2 = longest_m_ * longest_m_, here2 = glm::dot(y, y);
+  const double cosine = normals.cos_half;
+  double most2 = longest2;
+  if (cosine > kWidestCone) {
+    const double across = std::sqrt(std::max(0.0, glm::dot(z, z) - here2 * here2));
+    const double other2 = std::min(longest2, squares_m2_ - here2), half = 0.5 * (here2 - other2);
+    const double cosine2 = 2.0 * cosine * cosine - 1.0, sine2 = std::sqrt(std::max(0.0, 1.0 - cosine2 * cosine2));
+    const double turns = std::sqrt(half * half + across * across);
+    const bool within = half > cosine2 * turns;  // the angle at which it is greatest, times two
+    most2 = std::min(longest2, 0.5 * (here2 + other2) + (within ? turns : half * cosine2 + across * sine2));
+  }
+  return reach_m_ - ball_m_ - std::sqrt(most2) * (1.0 + 1e-12);
+}
+
+// S - c = q - h N with q = p(N) - c less its part along N, and h the height: |S - c|^2 = h^2 + |A g|^2 - |A N|^2. By
+// Kantorovich's inequality |A g|^2 <= a^2 + c^2 - (a c)^2 / |A N|^2, a and c the longest and the shortest axis. From
+// before, h = |A N| - d with d the depth less the ball; the sum is greatest at |A N|^3 = (a c)^2 / d. From inside, |A
+// g|^2 - |A N|^2 is no more than (a - c)^2.
+double FingerCore::farthest_m(double rank_m) const {
+  const double a = longest_m_, c = shortest_m_, depth = reach_m_ - rank_m - ball_m_;
+  double before2 = 0.0;
+  if (depth <= a) {
+    double length = a;
+    if (depth > 0.0) length = std::clamp(std::cbrt(a * a * c * c / depth), std::max(c, depth), a);
+    const double height = length - depth, ratio = length > 0.0 ? a * c / length : 0.0;
+    before2 = std::max(0.0, height * height + a * a + c * c - ratio * ratio - length * length);
+  }
+  const double behind = rank_m - reach_m_;
+  const double inside2 = behind >= 0.0 ? behind * behind + lever_m_ * lever_m_ : 0.0;
+  return std::sqrt(std::max(before2, inside2)) * (1.0 + 1e-12);
+}
+
 double FingerCore::largest_radius(double least_length_m) const {
   if (!(least_length_m > 0.0)) return flattest_core_m_;
   const double per = 1.0 / least_length_m;
@@ -246,9 +282,18 @@ double FingerCore::way_within(double half_width_m, double least_length_m, double
   return std::max({along, slow, 0.5 * room_m - half_width_m});
 }
 
-bool is_behind(const FingerCore& core, const SurfaceBounds& part, double way_m) {
+double behind_m(const FingerCore& core, const SurfaceBounds& part) {
   const Vec3 d = core.centre() - part.middle;
-  const double along = glm::dot(d, part.normals.axis), room = -along * part.normals.cos_half - part.radius_m - way_m;
+  const double along = glm::dot(d, part.normals.axis);
+  if (!(part.normals.cos_half > 0.0) || !(along < 0.0)) return 0.0;
+  const double across = std::sqrt(std::max(0.0, glm::dot(d, d) - along * along));
+  return -along * part.normals.cos_half - across * part.sine - part.radius_m;
+}
+
+// The same without its root.
+bool is_behind(const FingerCore& core, const SurfaceBounds& part, double by_m) {
+  const Vec3 d = core.centre() - part.middle;
+  const double along = glm::dot(d, part.normals.axis), room = -along * part.normals.cos_half - part.radius_m - by_m;
   return part.normals.cos_half > 0.0 && room > 0.0 &&
          (glm::dot(d, d) - along * along) * part.sine * part.sine < room * room;
 }

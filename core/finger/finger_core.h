@@ -124,6 +124,14 @@ class FingerCore {
   /// How far outside a place has to be for that rank, and to have one at all after the finger has gone `way_m`.
   double outside_at(double rank_m, double way_m) const { return over_m_ + std::max(way_m, rank_m - reach_m_); }
 
+  /// The least rank (contact_rank.h) of contacts with a normal within a cone: a finger whose centre is before the plane
+  /// is no deeper than its support there, and where it is behind the contact ranks after its reach.
+  double least_rank(const NormalCone& normals) const;
+  /// How far the place of a contact of a rank up to this can be from the centre.
+  double farthest_m(double rank_m) const;
+  /// Below it every plane that is touched from before is shallower than the finger: least_rank tells something.
+  double deep_rank_m() const { return lever_m_; }
+
   /// How far p(N) can move along a direction across N while the finger goes `way_m`: its centre's way and the reach
   /// times its turning, as gone_m counts. `half_width_m`: of the core in that direction; `least_length_m`: |A N| at
   /// least, now.
@@ -160,8 +168,10 @@ inline bool is_thin(const FingerCore& core) {
   return core.width_m() < kThin * core.longest_m();
 }
 
-/// Whether the centre is behind every plane of a part, and stays there while it goes `way_m`.
-bool is_behind(const FingerCore& core, const SurfaceBounds& part, double way_m);
+/// Whether the centre is behind every plane of a part by that far.
+bool is_behind(const FingerCore& core, const SurfaceBounds& part, double by_m);
+/// How far it is behind all of them, at least; not over 0: nothing is known.
+double behind_m(const FingerCore& core, const SurfaceBounds& part);
 /// Whether no finger within `way_m` touches such a part, at the first glance: all lines along its normals pass by.
 bool is_beside(const FingerCore& core, const SurfaceBounds& part, double way_m);
 /// Which contacts a finger may have on such a part: p(N) - S = lambda N with lambda up to `most_m`, which is the ball's

@@ -19,6 +19,9 @@ struct EdgeNormals {
   std::array<Vec3, 3> powers;
   Vec3 flat;  ///< normal of the flat triangle, where the polynomial vanishes
 };
+/// The curve's Bezier points, and the Bernstein coefficients of its normals before they are given unit length.
+std::array<Vec3, 4> edge_points(const PnPatch& patch, std::uint32_t edge);
+std::array<Vec3, 3> edge_normal_coefficients(const PnPatch& patch, std::uint32_t edge);
 EdgeCurve edge_curve(const PnPatch& patch, std::uint32_t edge);
 EdgeNormals edge_normals(const PnPatch& patch, std::uint32_t edge);
 /// The same edge with f counted from its other end.

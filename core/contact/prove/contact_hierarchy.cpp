@@ -4,6 +4,7 @@
 #include "core/mesh/vertex_ring.h"
 #include "core/surface/mesh_patch.h"
 #include "core/surface/patch_curvature.h"
+#include "core/surface/patch_edge.h"
 
 #include <algorithm>
 #include <limits>
@@ -300,20 +301,17 @@ class ContactHierarchyBuilder {
 
   /// Of an edge and its ends.
   Bounds side_bounds(std::uint32_t t, std::uint32_t k) const {
-    static constexpr ControlPoint kNear[3][2] = {{b210, b120}, {b021, b012}, {b102, b201}};
     const PnPatch patch = make_patch(mesh_, t);
+    const std::array<Vec3, 4> curve = edge_points(patch, k);
     Bounds bounds;
-    for (const std::uint32_t corner : {k, (k + 1) % 3}) bounds.box.include(mesh_.position(t, corner));
-    for (const ControlPoint b : kNear[k]) bounds.box.include(patch.control_point(b));
+    for (const Vec3& p : curve) bounds.box.include(p);
     NormalSet normals;
     for (const Vec3& n : patch.normals) normals.add(n);
     add_edge_normals(t, k, normals);
     add_corner_normals(t, k, normals);
     add_corner_normals(t, (k + 1) % 3, normals);
     bounds.cone = normals.cone();
-    bounds.rim = rim_of_side({mesh_.position(t, k), patch.control_point(kNear[k][0]), patch.control_point(kNear[k][1]),
-                              mesh_.position(t, (k + 1) % 3)},
-                             normals);
+    bounds.rim = rim_of_side(curve, normals);
     return bounds;
   }
 
@@ -448,16 +446,14 @@ ContactHierarchy::Outline ContactHierarchy::Outline::about(const Outline& a, con
   return both;
 }
 
-/// lambda of contacts on the outside within the query's bounds, and of those seen from inside (finger_core.h).
-static double most_lambda_m(const FingerCore& core, double nearest_m) {
-  return core.ball_m() - core.reach_m() + std::max(nearest_m - core.lever_m(), core.lever_m());
-}
+/// lambda of contacts up to a rank (finger_core.h).
+static double most_lambda_m(const FingerCore& core, double rank_m) { return core.ball_m() - core.reach_m() + rank_m; }
 
 bool is_steady_for_core(const ContactQuery& q, double least, const NormalCone& normals) {
   if (!q.steady_ground) return false;
   // Offset by the finger's radius less the depth, which is least at the query's bound.
   const FingerCore& core = *q.core;
-  const double less = core.reach_m() + core.lever_m() - q.nearest_m;
+  const double less = core.reach_m() - q.rank_m;
   if ((core.flattest_m() - less) * least > kSteadyRoom - 1.0) return true;
   if (least < 0.0 && (core.least_flattest_m() - less) * least <= kSteadyRoom - 1.0) return false;
   return (core.flattest_near(normals, q.margin_m) - less) * least > kSteadyRoom - 1.0;
@@ -495,20 +491,32 @@ bool ContactHierarchy::touchable(const Node& node, const ContactQuery& q, double
   const bool is_led = !here && q.core_ahead;
   const FingerCore& core = is_led ? *q.core_ahead : *q.core;
   const double way = here ? 0.0 : q.margin_m;
-  if (is_beside(core, part, way) || (q.inside_m < 0.0 && is_behind(core, part, way))) return false;
+  const bool any_normal = node.cos_half <= -1.0f;
   // No rank changes by more than the finger goes.
-  const double led = is_led ? std::sqrt(glm::dot(q.ahead, q.ahead)) : 0.0, nearest = q.nearest_m - led;
+  const double led = is_led ? std::sqrt(glm::dot(q.ahead, q.ahead)) : 0.0, rank = q.rank_m - led;
+  const double inside = q.inside_m < 0.0 ? 0.0 : std::max(0.0, rank - core.reach_m());
+  if (!any_normal && (is_beside(core, part, way) || is_behind(core, part, way + inside))) return false;
+  if (!any_normal && q.inside_m < 0.0 && rank < core.deep_rank_m() && core.least_rank(normals) > rank) return false;
   // Boxes that are no further off than that can't be so far outside.
-  const double far = core.outside_at(nearest - core.lever_m(), way);
+  const double far = core.outside_at(rank, way);
   const double off = far + core.inner_m() - led;
   if ((off < 0.0 || box2 > off * off) && core.apart_m(part.middle, part.half) > far) return false;
+  if (any_normal) return true;
   // Single directions tell of parts that are small, or flat, not of others, and wide ones no glance leaves out.
   constexpr float kFlat = 0.9999f, kWide = 0.8f;
-  if ((node.link & kLeaf) || node.cos_half > kFlat) return can_touch(core, part, most_lambda_m(core, nearest), way);
+  if ((node.link & kLeaf) || node.cos_half > kFlat) return can_touch(core, part, most_lambda_m(core, rank), way);
   return node.cos_half < kWide || can_touch_at_a_glance(core, part, way);
 }
 
-void limit_query(ContactQuery& query, const Finger& finger, double rank) {
+void limit_query(ContactQuery& query, const Finger& finger, double rank, double margin_m) {
+  query.rank_m = rank;
+  if (query.core) {
+    // A place is that far off once the finger has gone there; of steady ground those are asked for that are here.
+    const FingerCore& core = *query.core;
+    query.nearest_m = std::max(core.farthest_m(rank), core.farthest_m(rank - margin_m) + margin_m);
+    query.inside_m = rank < finger.reach_m() ? -1.0 : query.nearest_m;
+    return;
+  }
   query.nearest_m = rank + finger.unroundness_m();
   query.inside_m = rank < finger.reach_m() ? -1.0 : rank - finger.reach_m() + finger.unroundness_m();
 }

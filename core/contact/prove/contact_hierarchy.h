@@ -55,9 +55,11 @@ struct ContactQuery {
   Vec3 centre{0.0};
   double nearest_m = 0.0;  ///< contacts on the outside (h >= 0) with h up to this
   double inside_m = 0.0;   ///< contacts seen from inside (h < 0) with |h| up to this; negative: none
-  double margin_m = 0.0;   ///< also all that could come up while the centre is within this of `centre + ahead`
-  Vec3 ahead{0.0};         ///< at most margin_m long
-  double tilt_rad = 0.0;   ///< how far c - S may lean from N: 0 for point and sphere, more for other fingers
+  /// Of a finger that is not round: contacts of a rank up to this, whose places lie no further off than the bounds.
+  double rank_m = std::numeric_limits<double>::max();
+  double margin_m = 0.0;  ///< also all that could come up while the centre is within this of `centre + ahead`
+  Vec3 ahead{0.0};        ///< at most margin_m long
+  double tilt_rad = 0.0;  ///< how far c - S may lean from N: 0 for point and sphere, more for other fingers
   /// Whether margin_m is left out where the ground does not fold. What comes in over its border then comes from a
   /// triangle that was asked for with the margin. Round fingers and Bernstein normals only.
   bool steady_ground = false;
@@ -84,8 +86,9 @@ bool is_steady_for_core(const ContactQuery& query, double least, const NormalCon
 /// Of a patch, by its own normals: true wherever the tree, which has rounded bounds of them, may take it for steady.
 bool may_be_steady_for_core(const ContactQuery& query, double least, const PnPatch& patch);
 
-/// Bounds of a query that shall only see contacts of a rank below `rank` (contact_rank.h).
-void limit_query(ContactQuery& query, const Finger& finger, double rank);
+/// Bounds of a query that shall only see contacts of a rank below `rank` (contact_rank.h), of which the finger gains
+/// `margin_m` as it goes so far.
+void limit_query(ContactQuery& query, const Finger& finger, double rank, double margin_m = 0.0);
 
 class ContactHierarchy {
  public:
@@ -210,8 +213,8 @@ inline double ContactHierarchy::reach2(const Node& node, const ContactQuery& q, 
   const double box2 = glm::dot(gap, gap);
   const double farthest = std::max(q.nearest_m, q.inside_m);
   if (box2 > farthest * farthest) return -1.0;
-  if (node.cos_half <= -1.0f) return box2;
   if (q.core) return touchable(node, q, box2) ? box2 : -1.0;
+  if (node.cos_half <= -1.0f) return box2;
 
   // Seen from c the node's points lie within `spread` of the direction to its middle; c may move by the margin.
   Vec3 d = q.centre - 0.5 * (low + high);

@@ -4,6 +4,7 @@
 #include "core/contact/prove/core_crease_proof.h"
 #include "core/contact/prove/feature_nets.h"
 #include "core/mesh/vertex_ring.h"
+#include "core/surface/patch_edge.h"
 
 #include <algorithm>
 #include <array>
@@ -56,8 +57,14 @@ double margin_by_touch(const FingerCore& core, const SurfaceBounds& part, const 
   return is_enough(margin, enough_m) ? margin : std::max(margin, margin_by_distance(core, part, bound));
 }
 
+/// By how deep a finger can be over planes with these normals.
+double margin_by_depth(const FingerCore& core, const NormalCone& normals, const RankBound& bound) {
+  return bound.rank_m < core.deep_rank_m() ? bound.way_to(core.least_rank(normals)) : 0.0;
+}
+
 double margin_of(const FingerCore& core, const SurfaceBounds& part, const RankBound& bound, double enough_m) {
-  const double margin = margin_by_rank(core, part.middle, part.half, bound);
+  const double margin =
+      std::max(margin_by_rank(core, part.middle, part.half, bound), margin_by_depth(core, part.normals, bound));
   return is_enough(margin, enough_m) ? margin : std::max(margin, margin_by_touch(core, part, bound, enough_m));
 }
 
@@ -66,10 +73,11 @@ double margin_of_crease(const FingerCore& core, const CreaseNet& crease, const R
   ++tests;
   const Box box = crease.box();
   const Vec3 middle = box.centre(), extent = 0.5 * box.size();
-  double margin = margin_by_rank(core, middle, extent, bound);
+  const NormalCone cone = crease.cone();
+  double margin = std::max(margin_by_rank(core, middle, extent, bound), margin_by_depth(core, cone, bound));
   if (!is_enough(margin, enough_m)) margin = std::max(margin, crease_margin(core, crease, enough_m, glance, tests));
   if (!is_enough(margin, kEnoughShare * enough_m))
-    margin = std::max(margin, margin_by_touch(core, {middle, extent, crease.cone()}, bound, enough_m));
+    margin = std::max(margin, margin_by_touch(core, {middle, extent, cone}, bound, enough_m));
   return margin;
 }
 
@@ -109,7 +117,7 @@ double vertex_margin(ContactContext& context, const FingerCore& core, std::uint3
   const SurfaceBounds bounds{mesh.position(t, corner), Vec3(0.0), cone};
   const std::optional<CreaseNet> arc = normals ? normals->arc() : std::nullopt;
   ++looks;
-  double margin = margin_by_rank(core, bounds.middle, bounds.half, bound);
+  double margin = std::max(margin_by_rank(core, bounds.middle, bounds.half, bound), margin_by_depth(core, cone, bound));
   if (arc && !is_enough(margin, enough_m))
     margin = std::max(margin, crease_margin(core, *arc, enough_m, glance, looks));
   if (!is_enough(margin, arc ? kEnoughShare * enough_m : enough_m))
@@ -146,7 +154,11 @@ FeatureExclusion exclude_features_by_core(ContactContext& context, const FingerC
   for (std::uint32_t k = 0; k < 3 && result.margin_m > 0.0; ++k) {
     if (!features.has_side(k) || mesh.edge_kind(t, k) == EdgeKind::smooth) continue;
     ask(edge_key(mesh, t, k), [&](int& tests) {
-      if (mesh.edge_kind(t, k) == EdgeKind::boundary) return 0.0;
+      if (mesh.edge_kind(t, k) == EdgeKind::boundary) {  // which has any normal
+        Box box;
+        for (const Vec3& p : edge_points(context.cache.patch(t, context.settings.normal_form), k)) box.include(p);
+        return margin_by_rank(core, box.centre(), 0.5 * box.size(), bound);
+      }
       const CreaseNet crease = crease_net(context.cache, context.settings.normal_form, t, k);
       if (is_hollow(crease)) return std::numeric_limits<double>::max();
       return margin_of_crease(core, crease, bound, enough_m, glance, tests);

@@ -38,11 +38,17 @@ SurfaceBounds bounds_of(std::span<const Vec3> points, const NormalCone& cone) {
   return {box.centre(), 0.5 * box.size(), cone};
 }
 
-/// By box and cone, of the whole patch.
-double margin_at_once(const PnPatch& patch, const FingerCore& core, double enough_m) {
+SurfaceBounds bounds_of(const PnPatch& patch, const NormalCone& cone) {
   std::array<Vec3, 10> points;
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = patch.control_point(i);
-  return touch_margin(core, bounds_of(points, cone_of(patch.normals)), enough_m);
+  return bounds_of(points, cone);
+}
+
+/// By how deep the finger can be over planes with a part's normals, or how far the centre is behind them.
+double margin_by_depth(const FingerCore& core, const SurfaceBounds& part, const RankBound& bound) {
+  const double steep = bound.rank_m < core.deep_rank_m() ? bound.way_to(core.least_rank(part.normals)) : 0.0;
+  const double behind = behind_m(core, part);
+  return behind > 0.0 ? std::max(steep, bound.way_to(core.reach_m() + behind)) : steep;
 }
 
 /// The patch S - D n, raised so that its heights are ranks: by the reach less the ball along n.
@@ -78,13 +84,20 @@ PieceLook look_at_piece(const PatchPiece& piece, const FingerCore& core, const R
                         bool last) {
   const PnPatch& patch = piece.patch;
   const double rounding = rounding_of_margin(core.centre(), patch.origin);
-  const double at_once = piece.depth == 0 ? certain_margin(margin_at_once(patch, core, enough_m), rounding) : 0.0;
+  const Vec3 sum = patch.normals[n200] + patch.normals[n020] + patch.normals[n002];
+  const bool deep = bound.rank_m < core.deep_rank_m() || glm::dot(core.centre() - patch.origin, sum) < 0.0;
+  double at_once = 0.0;
+  if (piece.depth == 0 || deep) {
+    const SurfaceBounds bounds = bounds_of(patch, cone_of(patch.normals));
+    if (deep) at_once = certain_margin(margin_by_depth(core, bounds, bound), rounding);
+    if (piece.depth == 0 && !(at_once > 0.0 && at_once >= enough_m))
+      at_once = std::max(at_once, certain_margin(touch_margin(core, bounds, enough_m), rounding));
+  }
   PieceLook look;
   look.proof.margin_m = at_once;
   look.proof.possible = !(at_once > 0.0);
   if (at_once > 0.0 && at_once >= enough_m) return look;
   const std::array<Vec3, 2> sides{patch.offsets[b030], patch.offsets[b003]};
-  const Vec3 sum = patch.normals[n200] + patch.normals[n020] + patch.normals[n002];
   const double sum2 = glm::dot(sum, sum);
   look.curved = !(sum2 > 0.01);
   if (look.curved) return look;
@@ -105,13 +118,13 @@ PieceLook look_at_piece(const PatchPiece& piece, const FingerCore& core, const R
                      .bend = known.bend,
                      .rest_m = known.rest_m,
                      .place_wanted = !look.curved && (look.clear || last),
-                     .height_matters_m = wrong + std::max(core.lever_m(), bound.rank_m)};
+                     .height_matters_m = wrong + bound.rank_m};
   for (Vec3& slope : stands_for.spread) slope *= known.slope_share;
   const double enough =
       look.curved ? enough_m : core.slide_m(core.longest_m(), linear.least_length_m, enough_m) * (1.0 + 1e-9);
   PatchExclusion proof = exclude_contact(patch_less_core(patch, core, known, axis), known.point, enough, stands_for);
   const double least_rank = proof.least_height_m - wrong;
-  const double shallow = least_rank > core.lever_m() ? bound.way_to(least_rank) : 0.0;
+  const double shallow = bound.way_to(least_rank);
   const double missed = look.curved || !(proof.margin_m > 0.0)
                             ? proof.margin_m
                             : core.way_within(core.longest_m(), linear.least_length_m, proof.margin_m);
@@ -137,6 +150,8 @@ class PossiblePlaces {
     (here.height_m > 0.0 ? contact_ : unsure_) = here;
   }
   bool any() const { return std::min(rank_, off_) < kNone; }
+  /// Whether there is one that may turn out to be a contact.
+  bool is_unsure() const { return off_ < kNone; }
   /// A contact that counts, else a place that may turn out to be one.
   PatchExclusion likeliest(double counts_below) const {
     if (rank_ == kNone || (off_ < kNone && !(rank_ < counts_below))) return unsure_;
@@ -168,7 +183,8 @@ PatchExclusion exclude_pieces(const ContactContext& context, const PnPatch& patc
     const PatchPiece& piece = stack[--size];
     // More than the least margin of the others is for nothing, and any is, where one may hold a contact.
     const double enough = places.any() ? 0.0 : std::min(enough_m, result.margin_m);
-    const bool last = piece.depth >= most_depth || looks >= kPieces;
+    // Where one can't be told the rest needs no proof, either: only whether another is likelier.
+    const bool last = piece.depth >= most_depth || looks >= kPieces || places.is_unsure();
     const PieceLook look = look_at_piece(piece, core, bound, enough, last);
     tests += 1 + look.proof.tests;
     const double wanted = std::min(kPieceShare * enough_m, enough);
@@ -222,6 +238,9 @@ PatchExclusion exclude_by_core(ContactContext& context, const FingerCore& core, 
   if (!(features.margin_m > 0.0)) {
     PatchExclusion nothing = no_proof(context, core, t);
     nothing.feature = features.unproved;
+    nothing.also_inside = boundary_with_key(mesh, t, features.unproved).has_value();
+    nothing.inside_u = nothing.u;
+    nothing.inside_v = nothing.v;
     nothing.tests = features.tests;
     return nothing;
   }

@@ -1,6 +1,7 @@
 #include "core/contact/prove/feature_nets.h"
 
 #include "core/mesh/vertex_ring.h"
+#include "core/surface/patch_edge.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,12 +14,6 @@ namespace {
 
 /// Sine of the lean along the edge: more than that is not bounded.
 constexpr double kBoundedLean = 0.3, kPerSine = 1.02;
-
-/// The three control normals along a side of a patch, Bernstein coefficients, from corner `edge` to the next.
-std::array<Vec3, 3> normals_along(const PnPatch& patch, std::uint32_t edge) {
-  static constexpr ControlNormal kMiddle[3] = {n110, n011, n101};
-  return {patch.normals[edge], 0.5 * patch.mixed_weight * patch.normals[kMiddle[edge]], patch.normals[(edge + 1) % 3]};
-}
 
 /// Sine of the angle by which the normals lean along the curve, at most: N.S' over its length, a product of Bezier
 /// forms. 1: no bound.
@@ -88,16 +83,14 @@ NormalCone CreaseNet::cone() const {
 }
 
 CreaseNet crease_net(PatchCache& cache, NormalForm form, std::uint32_t t, std::uint32_t side) {
-  static constexpr ControlPoint kNear[3][2] = {{b210, b120}, {b021, b012}, {b102, b201}};
   const EdgeLink other = cache.mesh().across(t, side);
   CreaseNet crease;
   {
     const PnPatch& near = cache.patch(t, form);
-    crease.curve = {near.control_point(side), near.control_point(kNear[side][0]), near.control_point(kNear[side][1]),
-                    near.control_point((side + 1) % 3)};
-    crease.near = normals_along(near, side);
+    crease.curve = edge_points(near, side);
+    crease.near = edge_normal_coefficients(near, side);
   }
-  crease.far = normals_along(cache.patch(other.triangle, form), other.edge);
+  crease.far = edge_normal_coefficients(cache.patch(other.triangle, form), other.edge);
   std::swap(crease.far[0], crease.far[2]);
   bound_lean(crease);
   return crease;

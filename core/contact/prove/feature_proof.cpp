@@ -197,6 +197,12 @@ std::uint64_t vertex_key(const ContactMesh& mesh, std::uint32_t t, std::uint32_t
   return std::uint64_t{mesh.vertex(t, k)} << 2 | 3u;
 }
 
+std::optional<std::uint32_t> boundary_with_key(const ContactMesh& mesh, std::uint32_t t, std::uint64_t key) {
+  for (std::uint32_t k = 0; k < 3; ++k)
+    if (mesh.edge_kind(t, k) == EdgeKind::boundary && edge_key(mesh, t, k) == key) return k;
+  return std::nullopt;
+}
+
 double exclude_feature_contacts(PatchCache& cache, const TriangleFeatures& features, NormalForm form,
                                 const Vec3& centre, const RankBound& bound, double enough_m, FeatureMemory* memory) {
   const ContactMesh& mesh = cache.mesh();

@@ -6,6 +6,7 @@
 #include "core/contact/patch_cache.h"
 
 #include <array>
+#include <optional>
 
 namespace tangent {
 
@@ -41,6 +42,9 @@ class FeatureMemory {
 /// Names of an edge, the same from both its triangles, and of a vertex.
 std::uint64_t edge_key(const ContactMesh& mesh, std::uint32_t t, std::uint32_t k);
 std::uint64_t vertex_key(const ContactMesh& mesh, std::uint32_t t, std::uint32_t k);
+
+/// Which boundary edge of a triangle has that name, if one has.
+std::optional<std::uint32_t> boundary_with_key(const ContactMesh& mesh, std::uint32_t t, std::uint64_t key);
 
 /// The creases and boundaries of a triangle and their ends, or one of them.
 struct TriangleFeatures {

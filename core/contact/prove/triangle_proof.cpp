@@ -111,13 +111,19 @@ PatchExclusion exclude_part(ContactContext& context, PartOfTriangle& part, const
                                   : exclude_face_by_core(context, *context.core, part.triangle, bound, enough_m);
 }
 
-SurfacePlace start_on(const ContactContext& context, const PartOfTriangle& part, const PatchExclusion& proof) {
-  if (!is_side(part.part)) return place_on_face(part.triangle, proof.u, std::min(proof.v, 1.0 - proof.u));
+/// On a side, where it is nearest to the finger's centre.
+static SurfacePlace start_on_side(const ContactContext& context, std::uint32_t t, std::uint32_t k) {
   const ContactMesh& mesh = context.cache.mesh();
-  const std::uint32_t k = side_of(part.part);
-  const Vec3 &p = mesh.position(part.triangle, k), chord = mesh.position(part.triangle, (k + 1) % 3) - p;
+  const Vec3 &p = mesh.position(t, k), chord = mesh.position(t, (k + 1) % 3) - p;
   const double along = glm::dot(context.pose.position - p, chord) / glm::dot(chord, chord);
-  return place_on_edge(part.triangle, k, std::clamp(along, 0.0, 1.0));
+  return place_on_edge(t, k, std::clamp(along, 0.0, 1.0));
+}
+
+SurfacePlace start_on(const ContactContext& context, const PartOfTriangle& part, const PatchExclusion& proof) {
+  if (is_side(part.part)) return start_on_side(context, part.triangle, side_of(part.part));
+  const std::optional<std::uint32_t> boundary = boundary_with_key(context.cache.mesh(), part.triangle, proof.feature);
+  if (boundary) return start_on_side(context, part.triangle, *boundary);
+  return place_on_face(part.triangle, proof.u, std::min(proof.v, 1.0 - proof.u));
 }
 
 bool excludes_at_a_glance(ContactContext& context, std::uint32_t t, const RankBound& bound, double enough_m,

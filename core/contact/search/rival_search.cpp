@@ -375,7 +375,7 @@ ContactQuery RivalSearch::query(double margin) const {
 }
 
 void RivalSearch::limit(ContactQuery& q, double margin) const {
-  limit_query(q, context_.finger, bound_m_ + closing_ * margin);
+  limit_query(q, context_.finger, bound_m_ + closing_ * margin, margin);
   if (core_ && tracked_.contact.height_m >= 0.0) q.inside_m = -1.0;
 }
 

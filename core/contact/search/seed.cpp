@@ -160,6 +160,21 @@ void solve_start(ContactContext& context, const SurfacePlace& start, double most
   r.evaluations += evaluations;
 }
 
+/// Where a finger that is not round has an unstable contact that would count, stable ones beside it may, too.
+bool offer_beyond_fold(ContactContext& context, const IterationResult& unstable, double most, ContactQuery& q,
+                       Selection& selection) {
+  const bool counts = contact_rank(context.finger, unstable.contact) < (selection.group == 0 ? selection.value : most);
+  if (unstable.stop != StopReason::unstable || is_round(context.finger) || !counts) return false;
+  bool found = false;
+  for (const double sign : {-1.0, 1.0}) {
+    IterationResult r;
+    iterate_beyond_fold(context, unstable, sign, kSeedBudget, r);
+    q.work += SearchWork::of_core().evaluation * r.evaluations;
+    found = (r.evaluations > 0 && selection.offer(context, r)) || found;
+  }
+  return found;
+}
+
 /// Contacts of a rank below `most`. What failed before is not tried again: it would start from the same place. False:
 /// the work was used up before the end.
 bool seed_by_hierarchy(ContactContext& context, const SearchStructures& search, double most, int work,
@@ -182,7 +197,15 @@ bool seed_by_hierarchy(ContactContext& context, const SearchStructures& search, 
     IterationResult r;
     solve_start(context, start_on(context, part, proof), selection.group == 0 ? selection.value : most, r);
     q.work += cost.evaluation * r.evaluations;
-    if (!selection.offer(context, r)) {
+    bool found = selection.offer(context, r) || offer_beyond_fold(context, r, most, q, selection);
+    if (proof.also_inside && !is_round(context.finger)) {
+      IterationResult inside;
+      iterate(context, place_on_face(t, proof.inside_u, std::min(proof.inside_v, 1.0 - proof.inside_u)), kSeedBudget,
+              inside);
+      q.work += cost.evaluation * inside.evaluations;
+      found = selection.offer(context, inside) || found;
+    }
+    if (!found) {
       failed.add(t, q.part);
       if (part.triangle != t) failed.add(part.triangle, q.part);
     }

@@ -110,6 +110,42 @@ TEST_CASE("while the finger goes and turns, no core point slides further across 
   }
 }
 
+TEST_CASE("a contact ranks no lower, and lies no further off, than its normal and its rank allow") {
+  Random random(65);
+  for (const FingerShape shape : {FingerShape::ellipsoid, FingerShape::capsule}) {
+    CAPTURE(static_cast<int>(shape));
+    double nearest_rank = 1.0, farthest = 0.0;
+    for (int i = 0; i < rounds(20000); ++i) {
+      const Finger finger = any_finger(shape, random);
+      const FingerPose pose{random.in_cube(0.1), random.orientation()};
+      const FingerCore core(finger, pose);
+      const Vec3 n = random.direction();
+      const double depth = random.in(-0.01, 2.0 * finger.reach_m());
+      const Vec3 place = support_point(finger, pose, n) + depth * n;
+      const double rank = contact_rank(finger, contact_on_plane(finger, pose, place, n));
+      const double half = random.in(0.0, 2.0);
+      const NormalCone cone{unit(n + std::tan(std::min(half, 1.5)) * random.in(0.0, 1.0) * across(n, random)),
+                            std::cos(std::min(half, 1.5) * (1.0 + 1e-9))};
+      CHECK(core.least_rank(cone) <= rank + 1e-15);
+      CHECK(core.least_rank({n, 1.0}) >= core.least_rank(cone) - 1e-15);
+      const double most = core.farthest_m(rank), is = glm::distance(place, pose.position);
+      CHECK(is <= most + 1e-15);
+      CHECK(core.farthest_m(rank + 1e-3) >= most - 1e-15);
+      // Neither is idle: some contacts come close.
+      if (rank < finger.reach_m()) nearest_rank = std::min(nearest_rank, rank - core.least_rank({n, 1.0}));
+      farthest = std::max(farthest, is / most);
+      const SurfaceBounds part(place, Vec3(0.0), cone);
+      const double behind = behind_m(core, part);
+      if (!(behind > 1e-9)) continue;
+      CHECK(is_behind(core, part, behind - 1e-9));
+      CHECK_FALSE(is_behind(core, part, behind + 1e-9));
+      CHECK(rank >= finger.reach_m() + behind - 1e-12);
+    }
+    CHECK(nearest_rank < 1e-4);
+    CHECK(farthest > 0.99);
+  }
+}
+
 TEST_CASE("a part of the surface that is touched is never said to be out of touch, nor one that will be") {
   Random random(64);
   for (const FingerShape shape : {FingerShape::ellipsoid, FingerShape::capsule}) {

@@ -189,28 +189,31 @@ TEST_CASE("for fingers that are not round the tilt keeps their contacts in the s
       const Vec2 uv = random.barycentric();
       const SurfaceSample s = evaluate(make_patch(mesh, t), uv.x, uv.y);
       FingerPose pose{Vec3(0.0), random.orientation()};
-      const double depth = random.in(-0.002, 0.001);
-      pose.position = s.point - depth * s.normal - support_point(finger, pose, s.normal);
+      const Vec3 support = support_point(finger, pose, s.normal);
+      const double deepest = -glm::dot(support, s.normal);  // until the centre is behind the plane
+      const double depth = i % 2 ? random.in(-0.002, 0.001) : random.in(0.0, 0.98) * deepest;
+      pose.position = s.point - depth * s.normal - support;
       ContactQuery query;
       query.centre = pose.position;
       // What a search for contacts of at most this depth's rank asks for (seed.cpp).
-      query.nearest_m = finger.reach_m() - depth + finger.unroundness_m();
-      query.inside_m = -1.0;
+      const double rank = finger.reach_m() - depth + 1e-9;
+      limit_query(query, finger, rank);
       query.tilt_rad = finger.tilt_rad();
       const auto tilted = visited(torus->hierarchy(), query);
       // The same by support points, here and while the finger moves.
       const FingerCore core(finger, pose);
       query.core = &core;
+      limit_query(query, finger, rank);
       const auto supported = visited(torus->hierarchy(), query);
       // From a place that the finger is away from by the margin at most, part of it by turning.
       query.margin_m = 0.003;
-      query.nearest_m += query.margin_m;
       const double way = query.margin_m * random.in(0.0, 1.0), turn = way * random.in(0.0, 1.0);
       pose.position += (way - turn) * random.direction();
       pose.orientation = glm::angleAxis(turn / core.reach_m(), random.direction()) * pose.orientation;
       const FingerCore before(finger, pose);
       query.centre = pose.position;
       query.core = &before;
+      limit_query(query, finger, rank + query.margin_m, query.margin_m);
       const auto moved = visited(torus->hierarchy(), query);
       missed += !tilted.contains(t) + !supported.contains(t) + !moved.contains(t);
       by_tilt += tilted.size();

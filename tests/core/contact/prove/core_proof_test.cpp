@@ -74,6 +74,30 @@ double share_proved(const ContactMesh& mesh, FingerShape shape, int count, doubl
   return static_cast<double>(proved) / count;
 }
 
+/// Contacts of any depth, until the centre is far behind their planes, seen from where they just begin to count.
+/// Returns how many were excluded wrongly, and how many poses at which something was; `prove` gets the bound, too.
+template <class Make, class Prove>
+std::pair<int, int> excluded_by_rank(const ContactMesh& mesh, FingerShape shape, int count, Random& random, Make make,
+                                     Prove prove) {
+  Prover prover{PatchCache(mesh), SolverSettings{}, finger_of(shape)};
+  int wrong = 0, proved = 0;
+  for (int i = 0; i < count; ++i) {
+    const auto [point, normal] = make(prover.cache);
+    const double depth = random.in(-2e-3, 2.0 * prover.finger.reach_m());
+    const FingerPose there = resting_on(prover.finger, point, normal, depth, random);
+    const double rank = contact_rank(prover.finger, contact_on_plane(prover.finger, there, point, normal));
+    double gone = 0.0;
+    const FingerPose here = before(prover.finger, there, random.below(2) ? random.in(0.0, 4e-3) : 0.0, random, gone);
+    const double closing = random.below(2) ? 1.0 : 2.0;
+    const RankBound bound{rank - (closing - 1.0) * gone + 1e-9, closing};
+    const double margin = prover.margin(
+        here, [&](ContactContext& context, const FingerCore& core) { return prove(context, core, bound); });
+    proved += margin > 0.0;
+    wrong += margin > gone * (1.0 + 1e-9) + 1e-12;
+  }
+  return {wrong, proved};
+}
+
 /// Counts whatever its rank.
 constexpr RankBound kAnyRank{1e3, 2.0};
 /// All those contacts count, and none much further off.
@@ -211,6 +235,65 @@ TEST_CASE("no contact of an ellipsoid or a capsule comes up on a face within the
       }
       CHECK(proved > (rounds(100) == 100 ? 10.0 : 0.0));  // of few rounds the share says little
     }
+  }
+}
+
+TEST_CASE("no rank excludes a contact of an ellipsoid or a capsule, however deep, or seen from inside") {
+  Random random(77);
+  const auto on_face = [&](PatchCache& cache, std::uint32_t t) {
+    const Vec2 at = random.barycentric();
+    SurfaceSample s;
+    cache.sample(t, NormalForm::bernstein, at.x, at.y, s);
+    return std::pair(s.point, s.normal);
+  };
+  ContactMeshOptions options;
+  options.crease_rad = 0.1;
+  PolygonMesh ball = make_icosphere(0.010, 1);
+  for (Vec3& p : ball.positions) p *= random.in(0.8, 1.2);
+  ball.normals.clear();
+  ball.corner_normal.clear();
+  const ContactMesh sharp = *ContactMesh::build(ball, options);
+  const ContactMesh sheet = *ContactMesh::build(bent_triangle(random, 0.3));
+  for (const FingerShape shape : kCoreShapes) {
+    CAPTURE(static_cast<int>(shape));
+    int wrong = 0, on_faces = 0;
+    for (int i = 0; i < rounds(400); ++i) {
+      const ContactMesh mesh = *ContactMesh::build(bent_triangle(random, random.in(0.0, 0.6)));
+      const double enough = random.below(2) ? random.in(1e-6, 2e-3) : 0.0;
+      const auto [w, proved] = excluded_by_rank(
+          mesh, shape, 20, random, [&](PatchCache& cache) { return on_face(cache, 0); },
+          [&](ContactContext& context, const FingerCore& core, const RankBound& bound) {
+            return exclude_face_by_core(context, core, 0, bound, enough).margin_m;
+          });
+      wrong += w;
+      on_faces += proved;
+    }
+    CHECK(wrong == 0);
+    CHECK(on_faces > 0);
+    std::uint32_t t = 0;
+    const auto features = [&](ContactContext& context, const FingerCore& core, const RankBound& bound) {
+      return exclude_features_by_core(context, core, {t}, bound, random.below(2) ? 1e9 : 0.0).margin_m;
+    };
+    const auto at_vertex = [&](PatchCache&) {
+      t = random.below(sharp.triangle_count());
+      const std::uint32_t k = random.below(3);
+      Vec3 normal(0.0);
+      around_vertex(sharp, t, k, [&](std::uint32_t at, std::uint32_t corner) {
+        normal += random.in(0.0, 1.0) * sharp.normal(at, corner);
+      });
+      return std::pair(sharp.position(t, k), unit(normal));
+    };
+    const auto [wrong_at, at_vertices] = excluded_by_rank(sharp, shape, rounds(8000), random, at_vertex, features);
+    CHECK(wrong_at == 0);
+    CHECK(at_vertices > 0);
+    const auto on_rim = [&](PatchCache& cache) {
+      t = 0;
+      SurfaceSample s;
+      const double f = random.in(0.0, 1.0);
+      cache.sample(0, NormalForm::bernstein, f, random.below(2) ? 0.0 : 1.0 - f, s);
+      return std::pair(s.point, random.direction());
+    };
+    CHECK(excluded_by_rank(sheet, shape, rounds(8000), random, on_rim, features).first == 0);
   }
 }
 
