@@ -163,8 +163,11 @@ void solve_start(ContactContext& context, const SurfacePlace& start, double most
 /// Where a finger that is not round has an unstable contact that would count, stable ones beside it may, too.
 bool offer_beyond_fold(ContactContext& context, const IterationResult& unstable, double most, ContactQuery& q,
                        Selection& selection) {
-  const bool counts = contact_rank(context.finger, unstable.contact) < (selection.group == 0 ? selection.value : most);
-  if (unstable.stop != StopReason::unstable || is_round(context.finger) || !counts) return false;
+  constexpr double kNear = 0.05;  // of the finger's reach: a solve that ended further off tells of none there
+  if (unstable.stop != StopReason::unstable || is_round(context.finger) ||
+      !(unstable.contact.error_m < kNear * context.finger.reach_m()) ||
+      !(contact_rank(context.finger, unstable.contact) < (selection.group == 0 ? selection.value : most)))
+    return false;
   bool found = false;
   for (const double sign : {-1.0, 1.0}) {
     IterationResult r;
@@ -210,12 +213,15 @@ bool seed_by_hierarchy(ContactContext& context, const SearchStructures& search, 
       if (part.triangle != t) failed.add(part.triangle, q.part);
     }
     if (selection.group == 0) limit_query(q, context.finger, std::min(most, selection.value));
+    // One is known: solves that walk far off their triangle tell no more of it.
+    if (selection.group == 0 && q.core) context.most_crossings = kMostRivalCrossings;
     return solves < kMaxSolves;
   };
   VisitPlace from;
   const bool through = search.hierarchy.visit_from(from, query, visit);
   if (!through || solves >= kMaxSolves) failed.break_off();
   context.core = nullptr;
+  context.most_crossings = kMostCrossings;
   return through;
 }
 

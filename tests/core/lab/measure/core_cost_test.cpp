@@ -1,11 +1,13 @@
 // What the ticks of an ellipsoid and a capsule cost over a sphere's: in time, and the ways for callgrind, which counts
 // instructions (workbench/bench/README.md, "Means and tails").
 #include "core/io/mesh_io.h"
+#include "tests/core/fingers.h"
 #include "tests/core/random_bodies.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <numeric>
 
 using namespace tangent;
 using namespace tangent::test;
@@ -138,4 +140,50 @@ TEST_CASE("measure: what a tick of an ellipsoid and a capsule costs on bodies of
       CHECK(least.unconverged == 0);
     }
   }
+}
+
+TEST_CASE("measure: what a first tick deep in a body costs" * doctest::skip()) {
+  Finger sphere, ellipsoid, capsule;
+  ellipsoid.shape = FingerShape::ellipsoid;
+  ellipsoid.semi_axes_m = {0.020, 0.010, 0.008};
+  capsule.shape = FingerShape::capsule;
+  capsule.radius_m = 0.008;
+  const std::pair<std::string, Finger> fingers[] = {{"sphere", sphere}, {"ellipsoid", ellipsoid}, {"capsule", capsule}};
+  for (const auto& [body, scene] : wanted_bodies())
+    for (const auto& [name, finger] : fingers)
+      for (const auto& [least_m, most_m] : {std::pair(1e-3, 5e-3), std::pair(1e-2, 2e-2)}) {
+        if (!is_wanted("TANGENT_FINGER", name)) continue;
+        Random random{7};
+        Preset preset = sphere_preset(0.020, Method::robust);
+        preset.finger = finger;
+        const ContactMesh& mesh = scene->mesh();
+        constexpr int kPoses = 200;
+        std::vector<double> times;
+        long planes = 0;
+        for (int i = 0; i < kPoses; ++i) {
+          const std::uint32_t t = random.below(mesh.triangle_count());
+          const auto p = mesh.positions(t);
+          const auto n = mesh.normals(t);
+          const Vec3 middle = mesh.origin() + (p[0] + p[1] + p[2]) / 3.0;
+          const FingerPose pose =
+              resting_on(finger, middle, unit(n[0] + n[1] + n[2]), random.in(least_m, most_m), random);
+          double least_s = 1e9;
+          for (int pass = 0; pass < wanted_passes(); ++pass) {
+            Stepper stepper(scene);
+            TickState state;
+            const auto start = std::chrono::steady_clock::now();
+            const TickOutput out = stepper.step(preset, {0.0, pose}, state);
+            least_s =
+                std::min(least_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+            planes += pass == 0 ? out.iterations : 0;
+            CHECK(out.status != TickStatus::unconverged);
+          }
+          times.push_back(1e6 * least_s);
+        }
+        std::sort(times.begin(), times.end());
+        const double sum = std::accumulate(times.begin(), times.end(), 0.0);
+        MESSAGE(body << ", " << name << ", " << 1e3 * least_m << " to " << 1e3 * most_m << " mm deep: mean "
+                     << sum / kPoses << ", p50 " << times[kPoses / 2] << ", p99 " << times[kPoses - 2] << ", worst "
+                     << times.back() << " us, " << planes / kPoses << " planes");
+      }
 }
