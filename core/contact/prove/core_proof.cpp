@@ -87,10 +87,12 @@ PieceLook look_at_piece(const PatchPiece& piece, const FingerCore& core, const R
   const Vec3 sum = patch.normals[n200] + patch.normals[n020] + patch.normals[n002];
   const bool deep = bound.rank_m < core.deep_rank_m() || glm::dot(core.centre() - patch.origin, sum) < 0.0;
   double at_once = 0.0;
-  if (piece.depth == 0 || deep) {
+  // Of pieces of a thin core's patch that tells nothing.
+  const bool touches = piece.depth == 0 || !is_thin(core);
+  if (touches || deep) {
     const SurfaceBounds bounds = bounds_of(patch, cone_of(patch.normals));
     if (deep) at_once = certain_margin(margin_by_depth(core, bounds, bound), rounding);
-    if (piece.depth == 0 && !(at_once > 0.0 && at_once >= enough_m))
+    if (touches && !(at_once > 0.0 && at_once >= enough_m))
       at_once = std::max(at_once, certain_margin(touch_margin(core, bounds, enough_m), rounding));
   }
   PieceLook look;
