@@ -186,7 +186,7 @@ PatchExclusion exclude_pieces(const ContactContext& context, const PnPatch& patc
     // More than the least margin of the others is for nothing, and any is, where one may hold a contact.
     const double enough = places.any() ? 0.0 : std::min(enough_m, result.margin_m);
     // Where one can't be told the rest needs no proof, either: only whether another is likelier.
-    const bool last = piece.depth >= most_depth || looks >= kPieces || places.is_unsure();
+    const bool last = context.brief || piece.depth >= most_depth || looks >= kPieces || places.is_unsure();
     const PieceLook look = look_at_piece(piece, core, bound, enough, last);
     tests += 1 + look.proof.tests;
     const double wanted = std::min(kPieceShare * enough_m, enough);
@@ -203,6 +203,7 @@ PatchExclusion exclude_pieces(const ContactContext& context, const PnPatch& patc
                look.curved ? piece.at(1.0 / 3.0, 1.0 / 3.0) : piece.at(look.proof.u, look.proof.v));
   }
   if (places.any()) result = places.likeliest(bound.rank_m);
+  result.unsure = result.unsure || context.brief;
   result.tests = tests;
   return result;
 }

@@ -88,7 +88,10 @@ void RivalSearch::once_more(const Gone& gone, RivalResult& result) {
       continue;
     }
     const PartOfTriangle part = part_of(watched);
+    // What could neither be proved nor be solved for is looked at every tick: closely only by the next search.
+    context_.brief = core_ && watched.holds_rival;
     const Look look = look_at(part, clearance.margin_m, result);
+    context_.brief = false;
     const double then_m = watched.margin_m + gone.now_m;
     const bool held_none = !watched.holds_rival && !look.holds_rival &&
                            stayed_within(then_m, gone.before_m, gone.now_m, look.margin_m, context_.moved_m);
