@@ -8,6 +8,8 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <span>
 
 namespace tangent {
@@ -67,5 +69,26 @@ struct TouchedContacts {
 /// A contact on the outside pushes together with others. One that the finger's centre is behind of is the way out by
 /// itself: of two sides of a wall, or of a sharp edge seen from inside, the finger need not leave both.
 inline bool pushes_with_others(const PlaneContact& contact) { return contact.height_m >= 0.0; }
+
+/// Whether a place is the far side of what the finger is in, a plate's or a fin's other face: it faces away from the
+/// tracked place, and the finger's centre has come behind either of them. What the finger has left on that side is
+/// none.
+inline bool is_far_side(const TouchedContact& place, const TouchedContact& tracked) {
+  constexpr double kFacesAway = -0.5;  // cosine: a wedge of up to 60 degrees has a far side
+  const bool behind =
+      place.contact.height_m < 0.0 || (tracked.contact.height_m < 0.0 && place.contact.penetration_m > 0.0);
+  return behind && tracked.contact.penetration_m > 0.0 &&
+         glm::dot(place.plane.normal, tracked.plane.normal) < kFacesAway;
+}
+
+/// Which places a finger whose contact was lost can have come into from outside.
+struct EnteredPlaces {
+  double deepest_m = std::numeric_limits<double>::infinity();  ///< none that is deeper
+  std::optional<TouchedContact> last;                          ///< what was tracked: nor what is its far side
+
+  bool hold(const TrackedPlane& plane, const PlaneContact& contact) const {
+    return !(contact.penetration_m > deepest_m) && !(last && is_far_side({plane, contact}, *last));
+  }
+};
 
 }  // namespace tangent

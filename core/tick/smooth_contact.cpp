@@ -42,6 +42,7 @@ bool found_before(const TickState& state) { return state.has_converged && state.
 
 /// Whether a place is unentered at which the contact leapt or started anew.
 bool is_unentered(ContactContext& context, const TickState& state, const IterationResult& found, int& evaluations) {
+  if (!state.has_converged) return false;  // as at a start
   const double before = std::max(depth_before(context, state), deepest_m(context, state.touched, evaluations));
   const bool was_free = found_before(state) && !(before > 0.0);
   return is_unentered(step_of(context), found.contact.penetration_m, before, was_free);
@@ -119,28 +120,30 @@ bool go_on_with_touched(ContactContext& context, TickState& state, DecidedContac
   return found || go_on_with_wall(context, state.touched, decided);
 }
 
-/// Whether a place at which a lost contact was started anew can't have been entered.
-bool is_new_unentered(ContactContext& context, const TickState& state, const IterationResult& found, int& evaluations) {
+/// Where a lost contact may be gone on with.
+EnteredPlaces entered_places(ContactContext& context, const TickState& state, int& evaluations) {
   const FingerStep step = step_of(context);
+  if (!state.has_converged) return {};  // as at a start: none was found yet
   const double before = depth_before(context, state);
-  if (is_unentered(context, state, found, evaluations)) return true;
-  if (!(before > 0.0) || was_put_elsewhere(step)) return false;
-  TouchedContact last;
+  const double deepest = std::max(before, deepest_m(context, state.touched, evaluations));
+  EnteredPlaces entered;
+  entered.deepest_m = deepest_entered_m(step, deepest, found_before(state) && !(deepest > 0.0));
+  if (!(before > 0.0) || was_put_elsewhere(step)) return entered;
+  TouchedContact& last = entered.last.emplace();
   last.plane.normal = state.last_converged.normal;
   last.contact = contact_on_plane(context.finger, context.pose, state.last_converged.point, last.plane.normal);
-  return is_far_side({found.plane, found.contact}, last);
+  return entered;
 }
 
 /// Where following failed.
-void start_anew(ContactContext& context, const SearchStructures& search, bool first, TickState& state,
-                DecidedContact& decided) {
+void start_anew(ContactContext& context, const SearchStructures& search, bool first, const EnteredPlaces& entered,
+                TickState& state, DecidedContact& decided) {
   const bool in_vain = !first && !found_before(state);  // not where there was no search at all, as in an unready tick
   if (!in_vain) state.clearance = Clearance{};
   const SeedResult seeded =
-      seed_contact(context, search, state.plane, in_vain, state.has_previous ? &state.clearance : nullptr);
+      seed_contact(context, search, state.plane, in_vain, state.has_previous ? &state.clearance : nullptr, entered);
   decided.searching = seeded.searching;
-  if (seeded.searching && seeded.best.converged() &&
-      is_new_unentered(context, state, seeded.best, decided.evaluations)) {
+  if (seeded.searching && seeded.best.converged() && !entered.hold(seeded.best.plane, seeded.best.contact)) {
     // Where the search is not through, the place that the finger came into may be still to come.
     decided.evaluations += seeded.evaluations;
     decided.contact.stop = StopReason::facing;
@@ -149,6 +152,23 @@ void start_anew(ContactContext& context, const SearchStructures& search, bool fi
   }
   decide_start(seeded, state.plane, decided);
   if (decided.converged()) state.clearance = Clearance{};
+}
+
+/// Where the followed contact has leapt into what was not entered: back to what was. False: there is none, or the
+/// search would take longer than a tick.
+bool go_back_to_entered(ContactContext& context, const SearchStructures& search, TickState& state,
+                        DecidedContact& decided, TouchedContacts* touched) {
+  if (context.settings.method != Method::robust) return false;
+  if (touched && go_on_with_touched(context, state, decided, *touched)) return true;
+  const EnteredPlaces entered = entered_places(context, state, decided.evaluations);
+  Clearance parts;
+  const SeedResult seeded = seed_contact(context, search, state.plane, false, &parts, entered);
+  if (seeded.best.converged() && entered.hold(seeded.best.plane, seeded.best.contact)) {
+    decide_start(seeded, state.plane, decided);
+    return true;
+  }
+  decided.evaluations += seeded.evaluations;
+  return false;
 }
 
 /// A finger that has been put elsewhere starts at the deepest place there, unless that is the one that was followed.
@@ -182,25 +202,32 @@ static void find_and_watch(ContactContext& context, const SearchStructures& sear
   decide_followed(followed, first, decided);
   const bool started = followed != Followed::lost && start_after_leap(context, search, state, decided);
   if (started) followed = Followed::lost;
-  if (followed != Followed::lost) {
-    const double depth = decided.contact.contact.penetration_m;
-    if (!(depth > 0.0)) {
-      state.unentered = 0;  // left: from now on it counts
-    } else if ((followed == Followed::branched || !found_before(state)) && !state.unentered) {
-      state.unentered = is_unentered(context, state, decided.contact, decided.evaluations);
+  bool went_back = false;
+  if (followed != Followed::lost && !(decided.contact.contact.penetration_m > 0.0)) {
+    state.unentered = 0;  // left: from now on it counts
+  } else if (followed != Followed::lost && !state.unentered) {
+    const bool leapt = followed == Followed::branched;
+    if ((leapt || !found_before(state)) && is_unentered(context, state, decided.contact, decided.evaluations)) {
+      went_back = leapt && go_back_to_entered(context, search, state, decided, touched);
+      state.unentered = !went_back;
     }
+  }
+  if (followed != Followed::lost && !went_back) {
     if (!touched) return watch_others(context, search, state, decided);
+  } else if (went_back) {
+    state.clearance = Clearance{};
   } else if (touched && !started && go_on_with_touched(context, state, decided, *touched)) {
     state.clearance = Clearance{};
     state.unentered = 0;
   } else {
+    const EnteredPlaces entered = first ? EnteredPlaces{} : entered_places(context, state, decided.evaluations);
     if (started) {
       state.clearance = Clearance{};
     } else {
-      start_anew(context, search, first, state, decided);
+      start_anew(context, search, first, entered, state, decided);
     }
     if (!decided.facing())  // there, nothing could be entered
-      state.unentered = !first && is_new_unentered(context, state, decided.contact, decided.evaluations);
+      state.unentered = !entered.hold(decided.contact.plane, decided.contact.contact);
   }
   if (!touched) return;
   touched->count = 0;

@@ -3,6 +3,7 @@
 #include "core/base/tolerances.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace tangent {
 namespace {
@@ -29,24 +30,20 @@ void decide_followed(Followed followed, bool first, DecidedContact& decided) {
 
 bool was_put_elsewhere(const FingerStep& step) { return step.moved_m > kLeapOfFinger * step.switch_hysteresis_m; }
 
-bool was_entered(const FingerStep& step, double depth_m, double tracked_depth_m) {
-  if (was_put_elsewhere(step)) return true;
+/// No depth changes by more than the finger moves.
+static double entered_beside_m(const FingerStep& step, double tracked_depth_m) {
   const double late = std::min(step.late_m, kMostLateEntry * step.switch_hysteresis_m);
   const double explained = 2.0 * (step.moved_m + late) + (1.0 + kEnteredDepth) * step.switch_hysteresis_m;
-  return depth_m <= std::max(0.0, tracked_depth_m) + explained;
+  return std::max(0.0, tracked_depth_m) + explained;
 }
 
-bool is_unentered(const FingerStep& step, double depth_m, double before_m, bool was_free) {
-  if (was_free) return !was_entered(step, depth_m, 0.0);
-  return !was_put_elsewhere(step) && depth_m > std::max(0.0, before_m) + kLeapOfFinger * step.switch_hysteresis_m;
+bool was_entered(const FingerStep& step, double depth_m, double tracked_depth_m) {
+  return was_put_elsewhere(step) || depth_m <= entered_beside_m(step, tracked_depth_m);
 }
 
-bool is_far_side(const TouchedContact& place, const TouchedContact& tracked) {
-  constexpr double kFacesAway = -0.5;  // cosine: a wedge of up to 60 degrees has a far side
-  const bool behind =
-      place.contact.height_m < 0.0 || (tracked.contact.height_m < 0.0 && place.contact.penetration_m > 0.0);
-  return behind && tracked.contact.penetration_m > 0.0 &&
-         glm::dot(place.plane.normal, tracked.plane.normal) < kFacesAway;
+double deepest_entered_m(const FingerStep& step, double before_m, bool was_free) {
+  if (was_put_elsewhere(step)) return std::numeric_limits<double>::infinity();
+  return was_free ? entered_beside_m(step, 0.0) : std::max(0.0, before_m) + kLeapOfFinger * step.switch_hysteresis_m;
 }
 
 bool decide_rival(const ContactContext& context, const RivalResult& rival, double tracked_depth_m,

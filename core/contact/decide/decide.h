@@ -58,16 +58,14 @@ bool was_put_elsewhere(const FingerStep& step);
 /// tracked one by more than the hysteresis: no depth changes by more than the finger moves.
 bool was_entered(const FingerStep& step, double depth_m, double tracked_depth_m);
 
-/// Whether a place at which the contact leapt, or started anew where it was lost, is one that the finger can't have
-/// come into from outside: deeper by over kLeapOfFinger than what was tracked, although the finger has hardly moved.
+/// How deep a place at which the contact leapt, or started anew where it was lost, can be if the finger has come into
+/// it from outside: no deeper by over kLeapOfFinger than what was tracked, unless the finger has moved as far.
 /// `before_m`: depth of what was tracked; `was_free`: in the last tick, in which a contact was found and touched
 /// nothing.
-bool is_unentered(const FingerStep& step, double depth_m, double before_m, bool was_free);
-
-/// Whether a place is the far side of what the finger is in, a plate's or a fin's other face: it faces away from the
-/// tracked place, and the finger's centre has come behind either of them. What the finger has left on that side is
-/// none.
-bool is_far_side(const TouchedContact& place, const TouchedContact& tracked);
+double deepest_entered_m(const FingerStep& step, double before_m, bool was_free);
+inline bool is_unentered(const FingerStep& step, double depth_m, double before_m, bool was_free) {
+  return depth_m > deepest_entered_m(step, before_m, was_free);
+}
 
 /// A deeper place takes over, if one was found that was entered. True where it did.
 bool decide_rival(const ContactContext& context, const RivalResult& rival, double tracked_depth_m,

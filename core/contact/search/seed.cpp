@@ -29,25 +29,37 @@ SurfacePlace face_at(std::uint32_t triangle, double u, double v) {
 /// A capsule's side is all but straight: its Newton steps turn the normal only so far at a time.
 int seed_budget(const Finger& finger) { return is_round(finger) ? kSeedBudget : 4 * kSeedBudget; }
 
-/// Keeps the best of many seeds: converged before unstable before unconverged, then the least rank or error.
+/// In which order what a solve came to counts.
+enum class SeedGroup : std::uint8_t { entered, unentered, unstable, none };
+
+/// Keeps the best of many seeds: the first of these groups, then the least rank or error.
 struct Selection {
-  SeedResult result;
-  int group = 3;
+  const EnteredPlaces& entered;
+  SeedResult result{};
+  SeedGroup group = SeedGroup::none;
   double value = std::numeric_limits<double>::infinity();
 
+  SeedGroup group_of(const ContactContext& context, const IterationResult& r) const {
+    if (r.facing()) return SeedGroup::entered;
+    if (r.converged()) return entered.hold(r.plane, r.contact) ? SeedGroup::entered : SeedGroup::unentered;
+    const bool exact = r.contact.error_m < context.settings.tolerance_m;
+    return r.stop == StopReason::unstable && exact ? SeedGroup::unstable : SeedGroup::none;
+  }
   bool offer(const ContactContext& context, const IterationResult& r) {
     result.evaluations += r.evaluations;
-    const bool exact = r.contact.error_m < context.settings.tolerance_m;
-    const int here = r.converged() || r.facing() ? 0 : r.stop == StopReason::unstable && exact ? 1 : 2;
-    const double rank = here == 2 ? r.contact.error_m : contact_rank(context.finger, r.contact);
+    const SeedGroup here = group_of(context, r);
+    const double rank = here == SeedGroup::none ? r.contact.error_m : contact_rank(context.finger, r.contact);
     if (here < group || (here == group && rank < value)) {
       group = here;
       value = rank;
       result.best = r;
     }
-    result.found = group == 0;
+    result.found = found();
     return r.converged();
   }
+  bool found() const { return group <= SeedGroup::unentered; }
+  /// Whether only what ranks below `value` is looked for any more.
+  bool is_bound() const { return group == SeedGroup::entered; }
 };
 
 /// Parts of triangles that may hold a contact, but from which none was found. All others a search of everything has
@@ -139,7 +151,8 @@ bool seed_in_parts(ContactContext& context, const SearchStructures& search, int 
     selection.result.evaluations += then.evaluations;
     if (!then.converged() || !(contact_rank(context.finger, then.contact) < rank)) return true;
     iterate_kept(context, then.plane, false, kTrackBudget, now);
-    if (!selection.offer(context, now)) return true;
+    const bool counts = selection.offer(context, now) && selection.group_of(context, now) == SeedGroup::entered;
+    if (!counts) return true;
     rank = contact_rank(context.finger, then.contact);
     limit_query(q, context.finger, rank);
     return true;
@@ -166,7 +179,7 @@ bool offer_beyond_fold(ContactContext& context, const IterationResult& unstable,
   constexpr double kNear = 0.05;  // of the finger's reach: a solve that ended further off tells of none there
   if (unstable.stop != StopReason::unstable || is_round(context.finger) ||
       !(unstable.contact.error_m < kNear * context.finger.reach_m()) ||
-      !(contact_rank(context.finger, unstable.contact) < (selection.group == 0 ? selection.value : most)))
+      !(contact_rank(context.finger, unstable.contact) < (selection.is_bound() ? selection.value : most)))
     return false;
   bool found = false;
   for (const double sign : {-1.0, 1.0}) {
@@ -193,12 +206,12 @@ bool seed_by_hierarchy(ContactContext& context, const SearchStructures& search, 
     if (failed.has(t, q.part)) return true;
     PartOfTriangle part{t, q.part};
     const PatchExclusion proof =
-        exclude_part(context, part, {selection.group == 0 ? selection.value : most}, 0.0, &features);
+        exclude_part(context, part, {selection.is_bound() ? selection.value : most}, 0.0, &features);
     q.work += cost.look + cost.test * proof.tests;
     if (proof.margin_m > 0.0) return true;
     context.seed = static_cast<std::uint8_t>(std::min(++solves, 255));
     IterationResult r;
-    solve_start(context, start_on(context, part, proof), selection.group == 0 ? selection.value : most, r);
+    solve_start(context, start_on(context, part, proof), selection.is_bound() ? selection.value : most, r);
     q.work += cost.evaluation * r.evaluations;
     bool found = selection.offer(context, r) || offer_beyond_fold(context, r, most, q, selection);
     if (proof.also_inside && !is_round(context.finger)) {
@@ -212,9 +225,9 @@ bool seed_by_hierarchy(ContactContext& context, const SearchStructures& search, 
       failed.add(t, q.part);
       if (part.triangle != t) failed.add(part.triangle, q.part);
     }
-    if (selection.group == 0) limit_query(q, context.finger, std::min(most, selection.value));
+    if (selection.is_bound()) limit_query(q, context.finger, std::min(most, selection.value));
     // One is known: solves that walk far off their triangle tell no more of it.
-    if (selection.group == 0 && q.core) context.most_crossings = kMostRivalCrossings;
+    if (selection.is_bound() && q.core) context.most_crossings = kMostRivalCrossings;
     return solves < kMaxSolves;
   };
   VisitPlace from;
@@ -242,7 +255,7 @@ void seed_by_distance(ContactContext& context, const SearchStructures& search, s
   std::array<NearestHit, kSeeds> hits;
   const std::size_t count = search.nearest.nearest_several(context.pose.position, radius, std::span(hits).first(seeds));
   for (std::size_t i = 0; i < count; ++i) {
-    const bool known = in_motion && selection.group == 0;
+    const bool known = in_motion && selection.found();
     if (known && !failed->may_hold(hits[i].triangle)) continue;
     context.seed = static_cast<std::uint8_t>(i + 1);
     IterationResult r;
@@ -358,7 +371,7 @@ void seed_robustly(ContactContext& context, const SearchStructures& search, cons
   bool& searching = selection.result.searching;
   FailedStarts failed;
   if (!in_vain) searching = !seed_by_hierarchy(context, search, most, work.likely, failed, selection);
-  bool enough = searching || (selection.group == 0 && selection.value < most);
+  bool enough = searching || (selection.is_bound() && selection.value < most);
   if (!enough && most < kUnlimited && !is_round(context.finger)) enough = seed_free(context, search, radius, selection);
   if (!enough && parts && work.in_motion) {
     searching = !seed_in_parts(context, search, work.everything, *parts, selection);
@@ -367,21 +380,21 @@ void seed_robustly(ContactContext& context, const SearchStructures& search, cons
     searching = !seed_by_hierarchy(context, search, kUnlimited, work.everything, failed, selection);
   }
   seed_in_hollow(context, search, radius, selection);
-  if (selection.group != 0 || implausible(context, search, selection.result.best, selection.value))
+  if (!selection.found() || implausible(context, search, selection.result.best, selection.value))
     seed_by_distance(context, search, (in_vain && work.in_motion) || searching ? kSeeds / 4 : kSeeds,
                      std::numeric_limits<double>::infinity(),
                      work.in_motion ? kSeedBudget : seed_budget(context.finger), &failed, work.in_motion, selection);
-  if (selection.group == 1 && !is_round(context.finger)) leave_unstable(context, selection);
-  if (selection.group == 2 ||
-      (selection.group == 0 && implausible(context, search, selection.result.best, selection.value)))
+  if (selection.group == SeedGroup::unstable && !is_round(context.finger)) leave_unstable(context, selection);
+  if (selection.group == SeedGroup::none ||
+      (selection.found() && implausible(context, search, selection.result.best, selection.value)))
     face_the_finger(context, search, selection);
 }
 
 }  // namespace
 
 SeedResult seed_contact(ContactContext& context, const SearchStructures& search, const TrackedPlane& kept, bool in_vain,
-                        Clearance* parts) {
-  Selection selection;
+                        Clearance* parts, const EnteredPlaces& entered) {
+  Selection selection{entered};
   if (context.settings.method != Method::robust) {
     seed_by_distance(context, search, 1, known_radius(context, kept), context.settings.max_iterations, nullptr, false,
                      selection);
@@ -389,7 +402,7 @@ SeedResult seed_contact(ContactContext& context, const SearchStructures& search,
     seed_robustly(context, search, kept, in_vain, parts, selection);
   }
   context.seed = 0;
-  if (context.settings.method == Method::robust && selection.group == 1) {
+  if (context.settings.method == Method::robust && selection.group == SeedGroup::unstable) {
     // Every contact there is unstable. A sphere touches all round (at another one's centre, say): any will do. Others
     // would leave theirs, as on a saddle: the surface offers none, and the nearest is but the place to face.
     selection.result.found = true;

@@ -4,6 +4,7 @@
 #include "core/contact/clearance.h"
 #include "core/contact/follow/iterate.h"
 #include "core/contact/search/search_structures.h"
+#include "core/contact/touched.h"
 
 namespace tangent {
 
@@ -23,8 +24,9 @@ struct SeedResult {
 /// `kept`: the plane that was tracked until now, if any; the nearest triangle is no further off than its triangle.
 /// `in_vain`: the last tick found no contact either, so that it saves time to look for one of any depth at once: the
 /// same contacts. `parts`: where none is found near the raw mesh, a finger in motion is searched for in parts, a tick's
-/// work each (search_work.h), and this is the search that is under way; null: at once.
+/// work each (search_work.h), and this is the search that is under way; null: at once. `entered`: a contact that is not
+/// one of these comes after all that are.
 SeedResult seed_contact(ContactContext& context, const SearchStructures& search, const TrackedPlane& kept,
-                        bool in_vain = false, Clearance* parts = nullptr);
+                        bool in_vain = false, Clearance* parts = nullptr, const EnteredPlaces& entered = {});
 
 }  // namespace tangent

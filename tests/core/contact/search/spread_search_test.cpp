@@ -199,7 +199,7 @@ TEST_CASE("where rough ground offers no contact it is looked for in parts, and f
 
 TEST_CASE("an ellipsoid or a capsule that loses its contact on spikes looks for another in parts") {
   Random random(3);
-  const auto noise = [&](double, double) { return 1.2e-3 * (random.in(-1.0, 1.0) + random.in(-1.0, 1.0)); };
+  const auto noise = [&](double, double) { return 3e-3 * (random.in(-1.0, 1.0) + random.in(-1.0, 1.0)); };
   const ScenePtr spikes = scene_of(height_field(0.040, 60, noise));
   int lost_by_any = 0;
   for (const FingerShape shape : {FingerShape::ellipsoid, FingerShape::capsule}) {

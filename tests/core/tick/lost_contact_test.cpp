@@ -1,0 +1,136 @@
+// A contact that is lost, or that leaps, goes on at a place that the finger has come into from outside, if there is
+// one: a deeper one that it was never outside of does not push, and to follow that would let the finger fall.
+#include "core/contact/decide/decide.h"
+#include "tests/core/fingers.h"
+#include "tests/core/scenes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+using namespace tangent;
+using namespace tangent::test;
+
+namespace {
+
+/// Ground of cells with a height of its own at every corner.
+class Spikes {
+ public:
+  Spikes(double height_m, std::uint64_t seed) {
+    Random random(seed);
+    for (double& z : heights_)
+      for (int i = 0; i < 4; ++i) z += 0.866 * height_m * random.in(-1.0, 1.0);  // all but a normal distribution
+  }
+  ScenePtr scene() const {
+    return scene_of(height_field(kHalf, kCells, [&](double x, double y) { return height(x, y); }));
+  }
+  double height(double x, double y) const {
+    const double u = cell(x), v = cell(y);
+    const int i = std::min(static_cast<int>(u), kCells - 1), j = std::min(static_cast<int>(v), kCells - 1);
+    const double a = u - i, b = v - j;
+    return (1.0 - b) * ((1.0 - a) * at(i, j) + a * at(i + 1, j)) +
+           b * ((1.0 - a) * at(i, j + 1) + a * at(i + 1, j + 1));
+  }
+  /// On a way over all of it, just below the ground.
+  Vec3 way(double t) const {
+    const double x = 0.025 * std::sin(3.1 * t), y = 0.025 * std::cos(2.3 * t);
+    return {x, y, height(x, y) - 5e-4};
+  }
+
+ private:
+  static constexpr int kCells = 60;
+  static constexpr double kHalf = 0.040;
+  static double cell(double x) { return std::max(0.0, (x + kHalf) / (2.0 * kHalf) * kCells); }
+  double at(int i, int j) const { return heights_[static_cast<std::size_t>(j * (kCells + 1) + i)]; }
+  std::array<double, (kCells + 1) * (kCells + 1)> heights_{};
+};
+
+struct Pressed {
+  int free = 0, facing = 0, touching = 0;
+};
+
+Pressed press(const Spikes& spikes, const Finger& finger, int ticks) {
+  Preset preset = sphere_preset(0.020, Method::robust);
+  preset.finger = finger;
+  Stepper stepper(spikes.scene());
+  TickState state;
+  Pressed pressed;
+  for (int i = 0; i < ticks; ++i) {
+    const double t = 1e-3 * i;
+    const TickOutput out = stepper.step(preset, at_position(t, spikes.way(t)), state);
+    pressed.free += out.status == TickStatus::free;
+    pressed.facing += out.status == TickStatus::facing;
+    pressed.touching +=
+        out.status == TickStatus::face || out.status == TickStatus::edge || out.status == TickStatus::vertex;
+  }
+  return pressed;
+}
+
+}  // namespace
+
+TEST_CASE("pressed into spikes an ellipsoid or a capsule is seldom let go") {
+  Finger ellipsoid = finger_of(FingerShape::ellipsoid), capsule = finger_of(FingerShape::capsule);
+  ellipsoid.semi_axes_m = {0.020, 0.010, 0.008};
+  for (const Finger& finger : {ellipsoid, capsule}) {
+    CAPTURE(static_cast<int>(finger.shape));
+    constexpr int ticks = 1000, kinds = 10;
+    Pressed all;
+    for (std::uint64_t seed = 3; seed < 3 + kinds; ++seed) {
+      const Pressed pressed = press(Spikes(3e-3, seed), finger, ticks);
+      all.touching += pressed.touching;
+      all.free += pressed.free;
+      all.facing += pressed.facing;
+    }
+    MESSAGE(all.touching << " of " << kinds * ticks << " ticks push, " << all.free << " are free, " << all.facing
+                         << " facing");
+    CHECK(all.free * 11 < kinds * ticks);  // 1,149 and 1,526 where the deepest place was gone on with
+  }
+}
+
+TEST_CASE("where a first tick found no contact, what the next ones find counts as entered, as a first tick's does") {
+  const Spikes ground(1.2e-3, 3);
+  const ScenePtr scene = ground.scene();
+  int started_facing = 0, pushed = 0;
+  for (int start = 0; start < 60; ++start) {
+    const Preset preset = sphere_preset(0.020, Method::robust);
+    Stepper stepper(scene);
+    TickState state;
+    const Vec3 at = ground.way(0.1 * start);
+    TickOutput out = stepper.step(preset, at_position(0.0, at), state);
+    if (out.status != TickStatus::facing) continue;
+    for (int i = 1; i < 100 && !is_converged(out.status); ++i)
+      out = stepper.step(preset, at_position(1e-3 * i, at + Vec3(1e-4 * i, 0.0, 0.0)), state);
+    started_facing += is_converged(out.status) && out.penetration_m > 0.0;
+    pushed += is_converged(out.status) && out.penetration_m > 0.0 && out.status != TickStatus::free;
+  }
+  MESSAGE(pushed << " of " << started_facing << " that began facing push where they find a contact");
+  CHECK(started_facing > 5);
+  CHECK(pushed == started_facing);
+}
+
+TEST_CASE("a place that was entered holds a lost contact, one that is too deep or the far side of it does not") {
+  EnteredPlaces any;
+  TrackedPlane up, down;
+  up.normal = Vec3(0.0, 0.0, 1.0);
+  down.normal = Vec3(0.0, 0.0, -1.0);
+  PlaneContact shallow, deep, behind;
+  shallow.penetration_m = 1e-3;
+  shallow.height_m = 1e-3;
+  deep.penetration_m = 39e-3;
+  deep.height_m = 1e-3;
+  behind.penetration_m = 2e-3;
+  behind.height_m = -1e-3;
+  CHECK(any.hold(up, deep));
+  EnteredPlaces entered;
+  entered.deepest_m = deepest_entered_m({1e-4, 2e-5, 0.0}, 1e-3, false);
+  CHECK(entered.hold(up, shallow));
+  CHECK_FALSE(entered.hold(up, deep));
+  CHECK(entered.hold(down, behind));
+  entered.last = TouchedContact{up, shallow};
+  CHECK_FALSE(entered.hold(down, behind));
+  CHECK(entered.hold(up, behind));
+  // One that was free can only have come in as far as it has moved since.
+  CHECK(deepest_entered_m({1e-4, 2e-5, 0.0}, 0.0, true) < 1e-3);
+  CHECK(deepest_entered_m({1.0, 2e-5, 0.0}, 0.0, true) > 1e3);
+}
