@@ -6,6 +6,7 @@
 #include "core/contact/prove/clearance_check.h"
 #include "core/contact/prove/triangle_proof.h"
 #include "core/contact/search/beyond_fold.h"
+#include "core/contact/search/seed_selection.h"
 #include "core/contact/search_work.h"
 #include "core/finger/facing_normal.h"
 
@@ -28,65 +29,6 @@ SurfacePlace face_at(std::uint32_t triangle, double u, double v) {
 
 /// A capsule's side is all but straight: its Newton steps turn the normal only so far at a time.
 int seed_budget(const Finger& finger) { return is_round(finger) ? kSeedBudget : 4 * kSeedBudget; }
-
-/// In which order what a solve came to counts.
-enum class SeedGroup : std::uint8_t { entered, unentered, unstable, none };
-
-/// Keeps the best of many seeds: the first of these groups, then the least rank or error.
-struct Selection {
-  const EnteredPlaces& entered;
-  SeedResult result{};
-  SeedGroup group = SeedGroup::none;
-  double value = std::numeric_limits<double>::infinity();
-
-  SeedGroup group_of(const ContactContext& context, const IterationResult& r) const {
-    if (r.facing()) return SeedGroup::entered;
-    if (r.converged()) return entered.hold(r.plane, r.contact) ? SeedGroup::entered : SeedGroup::unentered;
-    const bool exact = r.contact.error_m < context.settings.tolerance_m;
-    return r.stop == StopReason::unstable && exact ? SeedGroup::unstable : SeedGroup::none;
-  }
-  bool offer(const ContactContext& context, const IterationResult& r) {
-    result.evaluations += r.evaluations;
-    const SeedGroup here = group_of(context, r);
-    const double rank = here == SeedGroup::none ? r.contact.error_m : contact_rank(context.finger, r.contact);
-    if (here < group || (here == group && rank < value)) {
-      group = here;
-      value = rank;
-      result.best = r;
-    }
-    result.found = found();
-    return r.converged();
-  }
-  bool found() const { return group <= SeedGroup::unentered; }
-  /// Whether only what ranks below `value` is looked for any more.
-  bool is_bound() const { return group == SeedGroup::entered; }
-};
-
-/// Parts of triangles that may hold a contact, but from which none was found. All others a search of everything has
-/// excluded or solved for, unless it broke off.
-class FailedStarts {
- public:
-  bool full() const { return count_ == parts_.size(); }
-  void add(std::uint32_t triangle, SearchPart part) {
-    if (!full()) parts_[count_++] = {triangle, part};
-  }
-  bool has(std::uint32_t triangle, SearchPart part) const {
-    return any([&](const PartOfTriangle& p) { return p.triangle == triangle && p.part == part; });
-  }
-  void break_off() { whole_ = false; }
-  bool may_hold(std::uint32_t triangle) const {
-    return full() || !whole_ || any([&](const PartOfTriangle& p) { return p.triangle == triangle; });
-  }
-
- private:
-  template <class Test>
-  bool any(Test test) const {
-    return std::any_of(parts_.begin(), parts_.begin() + static_cast<std::ptrdiff_t>(count_), test);
-  }
-  std::array<PartOfTriangle, 64> parts_;
-  std::size_t count_ = 0;
-  bool whole_ = true;
-};
 
 /// What is known of the distance to the nearest triangle before asking.
 double known_radius(const ContactContext& context, const TrackedPlane& kept) {
@@ -125,7 +67,7 @@ SearchWork work_of(const Finger& finger) { return is_round(finger) ? SearchWork:
 /// A part of one search of everything, from the pose that it began at. What it finds there is led to the present pose.
 /// False: it goes on at the next tick.
 bool seed_in_parts(ContactContext& context, const SearchStructures& search, int work, Clearance& begun,
-                   Selection& selection) {
+                   SeedSelection& selection) {
   const bool of_rivals = begun.margin_m >= 0.0;  // one of a tick before that searched for other things
   if (!begun.under_way || of_rivals || gone_m(begun, context.finger, context.pose) > context.hystereses_m(kMostLate)) {
     begun = Clearance{};
@@ -175,11 +117,11 @@ void solve_start(ContactContext& context, const SurfacePlace& start, double most
 
 /// Where a finger that is not round has an unstable contact that would count, stable ones beside it may, too.
 bool offer_beyond_fold(ContactContext& context, const IterationResult& unstable, double most, ContactQuery& q,
-                       Selection& selection) {
+                       SeedSelection& selection) {
   constexpr double kNear = 0.05;  // of the finger's reach: a solve that ended further off tells of none there
   if (unstable.stop != StopReason::unstable || is_round(context.finger) ||
       !(unstable.contact.error_m < kNear * context.finger.reach_m()) ||
-      !(contact_rank(context.finger, unstable.contact) < (selection.is_bound() ? selection.value : most)))
+      !(contact_rank(context.finger, unstable.contact) < selection.bound_m(most)))
     return false;
   bool found = false;
   for (const double sign : {-1.0, 1.0}) {
@@ -194,7 +136,7 @@ bool offer_beyond_fold(ContactContext& context, const IterationResult& unstable,
 /// Contacts of a rank below `most`. What failed before is not tried again: it would start from the same place. False:
 /// the work was used up before the end.
 bool seed_by_hierarchy(ContactContext& context, const SearchStructures& search, double most, int work,
-                       FailedStarts& failed, Selection& selection) {
+                       FailedStarts& failed, SeedSelection& selection) {
   std::optional<FingerCore> core;
   ContactQuery query = query_for_all(context, core);
   if (most < std::numeric_limits<double>::max()) limit_query(query, context.finger, most);
@@ -205,13 +147,12 @@ bool seed_by_hierarchy(ContactContext& context, const SearchStructures& search, 
   const auto visit = [&](std::uint32_t t, ContactQuery& q) {
     if (failed.has(t, q.part)) return true;
     PartOfTriangle part{t, q.part};
-    const PatchExclusion proof =
-        exclude_part(context, part, {selection.is_bound() ? selection.value : most}, 0.0, &features);
+    const PatchExclusion proof = exclude_part(context, part, {selection.bound_m(most)}, 0.0, &features);
     q.work += cost.look + cost.test * proof.tests;
     if (proof.margin_m > 0.0) return true;
     context.seed = static_cast<std::uint8_t>(std::min(++solves, 255));
     IterationResult r;
-    solve_start(context, start_on(context, part, proof), selection.is_bound() ? selection.value : most, r);
+    solve_start(context, start_on(context, part, proof), selection.bound_m(most), r);
     q.work += cost.evaluation * r.evaluations;
     bool found = selection.offer(context, r) || offer_beyond_fold(context, r, most, q, selection);
     if (proof.also_inside && !is_round(context.finger)) {
@@ -225,9 +166,9 @@ bool seed_by_hierarchy(ContactContext& context, const SearchStructures& search, 
       failed.add(t, q.part);
       if (part.triangle != t) failed.add(part.triangle, q.part);
     }
-    if (selection.is_bound()) limit_query(q, context.finger, std::min(most, selection.value));
+    if (selection.bounds_search()) limit_query(q, context.finger, std::min(most, selection.value));
     // One is known: solves that walk far off their triangle tell no more of it.
-    if (selection.is_bound() && q.core) context.most_crossings = kMostRivalCrossings;
+    if (selection.bounds_search() && q.core) context.most_crossings = kMostRivalCrossings;
     return solves < kMaxSolves;
   };
   VisitPlace from;
@@ -251,7 +192,7 @@ bool implausible(ContactContext& context, const SearchStructures& search, const 
 /// `failed`: of the search of everything before it; null: there was none, and the closest point is all that is tried.
 /// `in_motion`: where that search found a contact, only what it left open is tried, once and briefly.
 void seed_by_distance(ContactContext& context, const SearchStructures& search, std::size_t seeds, double radius,
-                      int budget, const FailedStarts* failed, bool in_motion, Selection& selection) {
+                      int budget, const FailedStarts* failed, bool in_motion, SeedSelection& selection) {
   std::array<NearestHit, kSeeds> hits;
   const std::size_t count = search.nearest.nearest_several(context.pose.position, radius, std::span(hits).first(seeds));
   for (std::size_t i = 0; i < count; ++i) {
@@ -268,7 +209,7 @@ void seed_by_distance(ContactContext& context, const SearchStructures& search, s
 }
 
 /// A place that a finger touches nothing at, near where the raw mesh is nearest. True where there is one.
-bool seed_free(ContactContext& context, const SearchStructures& search, double radius, Selection& selection) {
+bool seed_free(ContactContext& context, const SearchStructures& search, double radius, SeedSelection& selection) {
   std::array<NearestHit, kSeeds / 4> hits;
   const std::size_t count = search.nearest.nearest_several(context.pose.position, radius, std::span(hits));
   for (std::size_t i = 0; i < count; ++i) {
@@ -283,7 +224,7 @@ bool seed_free(ContactContext& context, const SearchStructures& search, double r
 
 /// Where the raw mesh's nearest point is on a hollow crease or corner, the contact that a finger pressed into it has
 /// there. Nearest to the centre, of a finger that is not round to what it presses against the nearest place with.
-void seed_in_hollow(ContactContext& context, const SearchStructures& search, double radius, Selection& selection) {
+void seed_in_hollow(ContactContext& context, const SearchStructures& search, double radius, SeedSelection& selection) {
   const ContactMesh& mesh = context.cache.mesh();
   if (!mesh.has_concave_crease()) return;
   NearestHit hit = search.nearest.nearest(context.pose.position, radius);
@@ -298,7 +239,7 @@ void seed_in_hollow(ContactContext& context, const SearchStructures& search, dou
 }
 
 /// Where only unstable contacts were found: the stable ones beside the nearest of them.
-void leave_unstable(ContactContext& context, Selection& selection) {
+void leave_unstable(ContactContext& context, SeedSelection& selection) {
   const IterationResult unstable = selection.result.best;
   for (const double sign : {-1.0, 1.0}) {
     IterationResult r;
@@ -310,7 +251,7 @@ void leave_unstable(ContactContext& context, Selection& selection) {
 /// Last resort, where no seed finds a contact of the interpolated normals, or none near the raw mesh: the place near
 /// the raw mesh's closest points whose plane, turned to face the finger, is touched deepest. Its
 /// normal is the finger's, its error that of the surface's own normal there.
-void face_the_finger(ContactContext& context, const SearchStructures& search, Selection& selection) {
+void face_the_finger(ContactContext& context, const SearchStructures& search, SeedSelection& selection) {
   std::array<NearestHit, kSeeds> hits;
   const std::size_t count =
       search.nearest.nearest_several(context.pose.position, std::numeric_limits<double>::infinity(), std::span(hits));
@@ -364,14 +305,14 @@ StartWork start_work(const ContactContext& context, const TrackedPlane& kept, bo
 }
 
 void seed_robustly(ContactContext& context, const SearchStructures& search, const TrackedPlane& kept, bool in_vain,
-                   Clearance* parts, Selection& selection) {
+                   Clearance* parts, SeedSelection& selection) {
   const double radius = known_radius(context, kept);
   const double most = in_vain ? kUnlimited : likely_rank(context, search, radius);
   const StartWork work = start_work(context, kept, in_vain, parts != nullptr);
   bool& searching = selection.result.searching;
   FailedStarts failed;
   if (!in_vain) searching = !seed_by_hierarchy(context, search, most, work.likely, failed, selection);
-  bool enough = searching || (selection.is_bound() && selection.value < most);
+  bool enough = searching || (selection.bounds_search() && selection.value < most);
   if (!enough && most < kUnlimited && !is_round(context.finger)) enough = seed_free(context, search, radius, selection);
   if (!enough && parts && work.in_motion) {
     searching = !seed_in_parts(context, search, work.everything, *parts, selection);
@@ -394,7 +335,7 @@ void seed_robustly(ContactContext& context, const SearchStructures& search, cons
 
 SeedResult seed_contact(ContactContext& context, const SearchStructures& search, const TrackedPlane& kept, bool in_vain,
                         Clearance* parts, const EnteredPlaces& entered) {
-  Selection selection{entered};
+  SeedSelection selection{entered};
   if (context.settings.method != Method::robust) {
     seed_by_distance(context, search, 1, known_radius(context, kept), context.settings.max_iterations, nullptr, false,
                      selection);
