@@ -84,10 +84,18 @@ inline bool is_far_side(const TouchedContact& place, const TouchedContact& track
 /// Which places a finger whose contact was lost can have come into from outside.
 struct EnteredPlaces {
   double deepest_m = std::numeric_limits<double>::infinity();  ///< none that is deeper
+  double behind_m = std::numeric_limits<double>::infinity();   ///< nor one that the centre is further behind
   std::optional<TouchedContact> last;                          ///< what was tracked: nor what is its far side
+  /// It was so deep in something that it can't have left it all since: a place that it doesn't touch is no way out.
+  bool pressed = false;
 
   bool hold(const TrackedPlane& plane, const PlaneContact& contact) const {
-    return !(contact.penetration_m > deepest_m) && !(last && is_far_side({plane, contact}, *last));
+    return !(contact.penetration_m > deepest_m) && !(contact.height_m < -behind_m) &&
+           !(last && is_far_side({plane, contact}, *last));
+  }
+  /// Whether a lost contact may go on there, rather than at others.
+  bool go_on_at(const TrackedPlane& plane, const PlaneContact& contact) const {
+    return hold(plane, contact) && (!pressed || contact.penetration_m > 0.0);
   }
 };
 

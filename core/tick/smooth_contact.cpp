@@ -40,9 +40,13 @@ double depth_before(const ContactContext& context, const TickState& state) {
 
 bool found_before(const TickState& state) { return state.has_converged && state.last_converged_s >= state.last_t_s; }
 
+/// Until one was found at all, places count as entered as at a first tick, but for those that the centre is so far
+/// behind: where that tick found none, behind an open sheet, say, a later one does not push from there.
+double most_behind_m(const ContactContext& context) { return context.hystereses_m(kLeapOfFinger); }
+
 /// Whether a place is unentered at which the contact leapt or started anew.
 bool is_unentered(ContactContext& context, const TickState& state, const IterationResult& found, int& evaluations) {
-  if (!state.has_converged) return false;  // as at a start
+  if (!state.has_converged) return found.contact.height_m < -most_behind_m(context);
   const double before = std::max(depth_before(context, state), deepest_m(context, state.touched, evaluations));
   const bool was_free = found_before(state) && !(before > 0.0);
   return is_unentered(step_of(context), found.contact.penetration_m, before, was_free);
@@ -123,10 +127,14 @@ bool go_on_with_touched(ContactContext& context, TickState& state, DecidedContac
 /// Where a lost contact may be gone on with.
 EnteredPlaces entered_places(ContactContext& context, const TickState& state, int& evaluations) {
   const FingerStep step = step_of(context);
-  if (!state.has_converged) return {};  // as at a start: none was found yet
+  EnteredPlaces entered;
+  if (!state.has_converged) {
+    entered.behind_m = most_behind_m(context);
+    return entered;
+  }
   const double before = depth_before(context, state);
   const double deepest = std::max(before, deepest_m(context, state.touched, evaluations));
-  EnteredPlaces entered;
+  entered.pressed = is_pressed(step, deepest);
   entered.deepest_m = deepest_entered_m(step, deepest, found_before(state) && !(deepest > 0.0));
   if (!(before > 0.0) || was_put_elsewhere(step)) return entered;
   TouchedContact& last = entered.last.emplace();
@@ -143,7 +151,7 @@ void start_anew(ContactContext& context, const SearchStructures& search, bool fi
   const SeedResult seeded =
       seed_contact(context, search, state.plane, in_vain, state.has_previous ? &state.clearance : nullptr, entered);
   decided.searching = seeded.searching;
-  if (seeded.searching && seeded.best.converged() && !entered.hold(seeded.best.plane, seeded.best.contact)) {
+  if (seeded.searching && seeded.best.converged() && !entered.go_on_at(seeded.best.plane, seeded.best.contact)) {
     // Where the search is not through, the place that the finger came into may be still to come.
     decided.evaluations += seeded.evaluations;
     decided.contact.stop = StopReason::facing;
@@ -163,7 +171,7 @@ bool go_back_to_entered(ContactContext& context, const SearchStructures& search,
   const EnteredPlaces entered = entered_places(context, state, decided.evaluations);
   Clearance parts;
   const SeedResult seeded = seed_contact(context, search, state.plane, false, &parts, entered);
-  if (seeded.best.converged() && entered.hold(seeded.best.plane, seeded.best.contact)) {
+  if (seeded.best.converged() && entered.go_on_at(seeded.best.plane, seeded.best.contact)) {
     decide_start(seeded, state.plane, decided);
     return true;
   }

@@ -41,9 +41,18 @@ bool was_entered(const FingerStep& step, double depth_m, double tracked_depth_m)
   return was_put_elsewhere(step) || depth_m <= entered_beside_m(step, tracked_depth_m);
 }
 
+bool is_pressed(const FingerStep& step, double before_m) {
+  return !was_put_elsewhere(step) && before_m > entered_beside_m(step, 0.0);
+}
+
 double deepest_entered_m(const FingerStep& step, double before_m, bool was_free) {
   if (was_put_elsewhere(step)) return std::numeric_limits<double>::infinity();
   return was_free ? entered_beside_m(step, 0.0) : std::max(0.0, before_m) + kLeapOfFinger * step.switch_hysteresis_m;
+}
+
+/// Behind a sheet its rim, where it is not touched, ranks before the place that pushes there.
+static bool is_no_way_out(const ContactContext& context, const PlaneContact& place, const PlaneContact& tracked) {
+  return is_free(context.finger, place) && tracked.height_m < 0.0 && tracked.penetration_m > 0.0;
 }
 
 bool decide_rival(const ContactContext& context, const RivalResult& rival, double tracked_depth_m,
@@ -53,6 +62,7 @@ bool decide_rival(const ContactContext& context, const RivalResult& rival, doubl
   const FingerStep step = step_of(context);
   if (!was_entered(step, rival.best.contact.penetration_m, tracked_depth_m)) return false;
   const TouchedContact tracked{decided.contact.plane, decided.contact.contact};
+  if (tracked_depth_m > 0.0 && is_no_way_out(context, rival.best.contact, tracked.contact)) return false;
   if (tracked_depth_m > 0.0 && !was_put_elsewhere(step) && is_far_side({rival.best.plane, rival.best.contact}, tracked))
     return false;
   adopt(rival.best, kept, decided);
@@ -66,6 +76,7 @@ bool decide_touched(ContactContext& context, double bound_m, TouchedContacts& to
   for (TouchedContact& c : std::span(touched.contacts).first(touched.count))
     if (!deepest || c.contact.penetration_m > deepest->contact.penetration_m) deepest = &c;
   if (!deepest || !(contact_rank(context.finger, deepest->contact) < bound_m)) return false;
+  if (decided.converged() && is_no_way_out(context, deepest->contact, decided.contact.contact)) return false;
   IterationResult contact;
   ContactContext quiet = context;
   quiet.trace = nullptr;

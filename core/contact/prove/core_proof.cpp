@@ -152,8 +152,6 @@ class PossiblePlaces {
     (here.height_m > 0.0 ? contact_ : unsure_) = here;
   }
   bool any() const { return std::min(rank_, off_) < kNone; }
-  /// Whether there is one that may turn out to be a contact.
-  bool is_unsure() const { return off_ < kNone; }
   /// A contact that counts, else a place that may turn out to be one.
   PatchExclusion likeliest(double counts_below) const {
     if (rank_ == kNone || (off_ < kNone && !(rank_ < counts_below))) return unsure_;
@@ -185,8 +183,7 @@ PatchExclusion exclude_pieces(const ContactContext& context, const PnPatch& patc
     const PatchPiece& piece = stack[--size];
     // More than the least margin of the others is for nothing, and any is, where one may hold a contact.
     const double enough = places.any() ? 0.0 : std::min(enough_m, result.margin_m);
-    // Where one can't be told the rest needs no proof, either: only whether another is likelier.
-    const bool last = context.brief || piece.depth >= most_depth || looks >= kPieces || places.is_unsure();
+    const bool last = context.brief || piece.depth >= most_depth || looks >= kPieces;
     const PieceLook look = look_at_piece(piece, core, bound, enough, last);
     tests += 1 + look.proof.tests;
     const double wanted = std::min(kPieceShare * enough_m, enough);

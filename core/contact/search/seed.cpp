@@ -167,8 +167,9 @@ bool seed_by_hierarchy(ContactContext& context, const SearchStructures& search, 
       if (part.triangle != t) failed.add(part.triangle, q.part);
     }
     if (selection.bounds_search()) limit_query(q, context.finger, std::min(most, selection.value));
-    // One is known: solves that walk far off their triangle tell no more of it.
-    if (selection.bounds_search() && q.core) context.most_crossings = kMostRivalCrossings;
+    // One that is touched from before is known: solves that walk far off their triangle tell no more of it.
+    if (q.core && selection.bounds_search() && selection.value < context.finger.reach_m())
+      context.most_crossings = kMostRivalCrossings;
     return solves < kMaxSolves;
   };
   VisitPlace from;

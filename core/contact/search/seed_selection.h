@@ -24,7 +24,7 @@ struct SeedSelection {
 
   SeedGroup group_of(const ContactContext& context, const IterationResult& r) const {
     if (r.facing()) return SeedGroup::entered;
-    if (r.converged()) return entered.hold(r.plane, r.contact) ? SeedGroup::entered : SeedGroup::unentered;
+    if (r.converged()) return entered.go_on_at(r.plane, r.contact) ? SeedGroup::entered : SeedGroup::unentered;
     const bool exact = r.contact.error_m < context.settings.tolerance_m;
     return r.stop == StopReason::unstable && exact ? SeedGroup::unstable : SeedGroup::none;
   }

@@ -1,5 +1,6 @@
 // A contact that is lost, or that leaps, goes on at a place that the finger has come into from outside, if there is
 // one: a deeper one that it was never outside of does not push, and to follow that would let the finger fall.
+#include "core/base/tolerances.h"
 #include "core/contact/decide/decide.h"
 #include "tests/core/fingers.h"
 #include "tests/core/scenes.h"
@@ -88,25 +89,63 @@ TEST_CASE("pressed into spikes an ellipsoid or a capsule is seldom let go") {
   }
 }
 
-TEST_CASE("where a first tick found no contact, what the next ones find counts as entered, as a first tick's does") {
+TEST_CASE("where a first tick found no contact, the next one found pushes unless it is far behind the finger") {
   const Spikes ground(1.2e-3, 3);
   const ScenePtr scene = ground.scene();
-  int started_facing = 0, pushed = 0;
+  int begun_facing = 0, pushed = 0, pushed_behind = 0;
   for (int start = 0; start < 60; ++start) {
     const Preset preset = sphere_preset(0.020, Method::robust);
     Stepper stepper(scene);
     TickState state;
     const Vec3 at = ground.way(0.1 * start);
-    TickOutput out = stepper.step(preset, at_position(0.0, at), state);
+    TickInput input = at_position(0.0, at);
+    TickOutput out = stepper.step(preset, input, state);
     if (out.status != TickStatus::facing) continue;
-    for (int i = 1; i < 100 && !is_converged(out.status); ++i)
-      out = stepper.step(preset, at_position(1e-3 * i, at + Vec3(1e-4 * i, 0.0, 0.0)), state);
-    started_facing += is_converged(out.status) && out.penetration_m > 0.0;
-    pushed += is_converged(out.status) && out.penetration_m > 0.0 && out.status != TickStatus::free;
+    for (int i = 1; i < 100 && !is_converged(out.status); ++i) {
+      input = at_position(1e-3 * i, at + Vec3(1e-4 * i, 0.0, 0.0));
+      out = stepper.step(preset, input, state);
+    }
+    if (!is_converged(out.status) || !(out.penetration_m > 0.0)) continue;
+    const double behind = -glm::dot(input.finger.position - out.contact, out.normal);
+    const bool far = behind > kLeapOfFinger * preset.solver.switch_hysteresis_m;
+    begun_facing += !far;
+    pushed += !far && out.status != TickStatus::free;
+    pushed_behind += far && out.status != TickStatus::free;
   }
-  MESSAGE(pushed << " of " << started_facing << " that began facing push where they find a contact");
-  CHECK(started_facing > 5);
-  CHECK(pushed == started_facing);
+  MESSAGE(pushed << " of " << begun_facing << " that began facing push where they find a contact");
+  CHECK(begun_facing > 5);
+  CHECK(pushed == begun_facing);
+  CHECK(pushed_behind == 0);
+}
+
+TEST_CASE("a finger that is pushed through a sheet is not let go for the rim that it has just left") {
+  Random random(9);
+  const ScenePtr sheet = scene_of(height_field(0.020, 6, [](double, double) { return 0.0; }));
+  Finger thin = finger_of(FingerShape::ellipsoid), capsule = finger_of(FingerShape::capsule);
+  thin.semi_axes_m = {0.015, 0.003, 0.009};
+  capsule.radius_m = 0.005;
+  int through = 0, let_go = 0;
+  for (const Finger& finger : {thin, capsule})
+    for (const ForceContacts contacts : {ForceContacts::all, ForceContacts::deepest})
+      for (int push = 0; push < 30; ++push) {
+        Preset preset = sphere_preset(0.020, Method::robust);
+        preset.finger = finger;
+        preset.force.contacts = contacts;
+        Stepper stepper(sheet);
+        TickState state;
+        const Vec3 over(random.in(0.008, 0.018), random.in(-0.015, 0.015), 0.0);
+        const Quat orientation = random.orientation();
+        double depth = 0.0;
+        for (int i = 0; i < 300; ++i) {
+          const double z = 0.016 - 1e-4 * i;
+          const TickOutput out = stepper.step(preset, {1e-3 * i, {over + Vec3(0.0, 0.0, z), orientation}}, state);
+          let_go += out.event == TickEvent::switched && out.status == TickStatus::free && depth > 1e-3 && z < 0.0;
+          through += z < 0.0 && out.penetration_m > 1e-3;
+          depth = out.status == TickStatus::free ? 0.0 : out.penetration_m;
+        }
+      }
+  CHECK(through > 1000);
+  CHECK(let_go == 0);
 }
 
 TEST_CASE("a place that was entered holds a lost contact, one that is too deep or the far side of it does not") {
@@ -130,6 +169,18 @@ TEST_CASE("a place that was entered holds a lost contact, one that is too deep o
   entered.last = TouchedContact{up, shallow};
   CHECK_FALSE(entered.hold(down, behind));
   CHECK(entered.hold(up, behind));
+  // Nor may it go on where it touches nothing while it can't have left what it was in; at a start not far behind.
+  PlaneContact free;
+  free.height_m = 9e-3;
+  free.penetration_m = -2e-3;
+  CHECK(entered.go_on_at(up, free));
+  entered.pressed = is_pressed({1e-4, 2e-5, 0.0}, 3e-3);
+  CHECK(entered.pressed);
+  CHECK_FALSE(entered.go_on_at(up, free));
+  CHECK(entered.hold(up, free));
+  CHECK_FALSE(is_pressed({1e-4, 2e-5, 0.0}, 1e-5));
+  any.behind_m = 5e-4;
+  CHECK_FALSE(any.hold(up, behind));
   // One that was free can only have come in as far as it has moved since.
   CHECK(deepest_entered_m({1e-4, 2e-5, 0.0}, 0.0, true) < 1e-3);
   CHECK(deepest_entered_m({1.0, 2e-5, 0.0}, 0.0, true) > 1e3);
