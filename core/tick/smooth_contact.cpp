@@ -40,13 +40,17 @@ double depth_before(const ContactContext& context, const TickState& state) {
 
 bool found_before(const TickState& state) { return state.has_converged && state.last_converged_s >= state.last_t_s; }
 
-/// Until one was found at all, places count as entered as at a first tick, but for those that the centre is so far
-/// behind: where that tick found none, behind an open sheet, say, a later one does not push from there.
+/// Until one was found at all, places count as entered as at a first tick ...
+bool is_starting(const ContactContext& context, const TickState& state) {
+  return !state.has_converged && context.settings.method == Method::robust;
+}
+/// ... but for those that the centre is so far behind: where that tick found none, behind an open sheet, say, a later
+/// one does not push from there.
 double most_behind_m(const ContactContext& context) { return context.hystereses_m(kLeapOfFinger); }
 
 /// Whether a place is unentered at which the contact leapt or started anew.
 bool is_unentered(ContactContext& context, const TickState& state, const IterationResult& found, int& evaluations) {
-  if (!state.has_converged) return found.contact.height_m < -most_behind_m(context);
+  if (is_starting(context, state)) return found.contact.height_m < -most_behind_m(context);
   const double before = std::max(depth_before(context, state), deepest_m(context, state.touched, evaluations));
   const bool was_free = found_before(state) && !(before > 0.0);
   return is_unentered(step_of(context), found.contact.penetration_m, before, was_free);
@@ -128,7 +132,7 @@ bool go_on_with_touched(ContactContext& context, TickState& state, DecidedContac
 EnteredPlaces entered_places(ContactContext& context, const TickState& state, int& evaluations) {
   const FingerStep step = step_of(context);
   EnteredPlaces entered;
-  if (!state.has_converged) {
+  if (is_starting(context, state)) {
     entered.behind_m = most_behind_m(context);
     return entered;
   }

@@ -133,6 +133,26 @@ bool offer_beyond_fold(ContactContext& context, const IterationResult& unstable,
   return found;
 }
 
+/// Along a sharp edge, or out over a rim, the steps of a finger that is not round may go to and fro beside an end of
+/// it, where the contact is.
+bool offer_ends(ContactContext& context, const IterationResult& cycling, double most, ContactQuery& q,
+                SeedSelection& selection) {
+  const bool lost = cycling.stop == StopReason::cycling || cycling.stop == StopReason::left_boundary;
+  if (!lost || cycling.plane.feature != Feature::edge || is_round(context.finger) ||
+      !(contact_rank(context.finger, cycling.contact) < selection.bound_m(most)))
+    return false;
+  bool found = false;
+  for (const std::uint32_t corner : {std::uint32_t{cycling.plane.side}, (cycling.plane.side + 1u) % 3u}) {
+    const Vec2 uv = corner_uv(corner);
+    IterationResult r;
+    iterate(context, {Feature::vertex, static_cast<std::uint8_t>(corner), cycling.plane.triangle, uv.x, uv.y},
+            kSeedBudget, r);
+    q.work += SearchWork::of_core().evaluation * r.evaluations;
+    found = selection.offer(context, r) || found;
+  }
+  return found;
+}
+
 /// Contacts of a rank below `most`. What failed before is not tried again: it would start from the same place. False:
 /// the work was used up before the end.
 bool seed_by_hierarchy(ContactContext& context, const SearchStructures& search, double most, int work,
@@ -154,7 +174,8 @@ bool seed_by_hierarchy(ContactContext& context, const SearchStructures& search, 
     IterationResult r;
     solve_start(context, start_on(context, part, proof), selection.bound_m(most), r);
     q.work += cost.evaluation * r.evaluations;
-    bool found = selection.offer(context, r) || offer_beyond_fold(context, r, most, q, selection);
+    bool found = selection.offer(context, r) || offer_beyond_fold(context, r, most, q, selection) ||
+                 offer_ends(context, r, most, q, selection);
     if (proof.also_inside && !is_round(context.finger)) {
       IterationResult inside;
       iterate(context, place_on_face(t, proof.inside_u, std::min(proof.inside_v, 1.0 - proof.inside_u)), kSeedBudget,

@@ -59,3 +59,37 @@ TEST_CASE("a first tick finds what an ellipsoid or a capsule touches the rim of 
     CHECK(planes < 600L * poses);  // 650 and 740 where the solves began on the faces
   }
 }
+
+TEST_CASE("a first tick finds the end of a rim that its steps run past") {
+  PolygonMesh mesh;
+  mesh.name = "sheet";
+  constexpr std::uint32_t cells = 10;
+  for (std::uint32_t i = 0; i <= cells; ++i)
+    for (std::uint32_t j = 0; j <= cells; ++j) mesh.positions.emplace_back(8e-3 * i - 0.040, 8e-3 * j - 0.040, 0.0);
+  for (std::uint32_t i = 0; i < cells; ++i)
+    for (std::uint32_t j = 0; j < cells; ++j) {
+      const std::uint32_t a = i * (cells + 1) + j, b = a + cells + 1;
+      mesh.add_face({a, b, b + 1});
+      mesh.add_face({a, b + 1, a + 1});
+    }
+  const ScenePtr sheet = scene_of(mesh);
+  Finger ellipsoid = finger_of(FingerShape::ellipsoid), capsule = finger_of(FingerShape::capsule);
+  ellipsoid.semi_axes_m = {0.020, 0.010, 0.008};
+  struct Scene {
+    Finger finger;
+    FingerPose pose;
+    double depth_m;
+  };
+  const Scene scenes[] = {
+      {ellipsoid,
+       {{-0.0100953546, -0.0394301652, -0.00436331301}, {0.209799386, 0.63627159, 0.413547256, 0.616539819}},
+       5.12e-3},
+      {capsule,
+       {{-0.0161508419, 0.0391791265, -0.00121074261}, {-0.134616357, 0.368517808, -0.116155219, -0.912458781}},
+       6.87e-3}};
+  for (const Scene& scene : scenes) {
+    Preset preset = sphere_preset(0.020, Method::robust);
+    preset.finger = scene.finger;
+    CHECK(solve_once(sheet, preset, scene.pose).penetration_m > scene.depth_m);  // 1.2 and 2.8 mm where it didn't
+  }
+}
