@@ -63,11 +63,13 @@ bool was_entered(const FingerStep& step, double depth_m, double tracked_depth_m)
 /// `before_m`: depth of what was tracked; `was_free`: in the last tick, in which a contact was found and touched
 /// nothing.
 double deepest_entered_m(const FingerStep& step, double before_m, bool was_free);
-/// Whether one that was so deep can't have left what it was in since the last tick.
-bool is_pressed(const FingerStep& step, double before_m);
+/// Whether a place is deeper than that.
 inline bool is_unentered(const FingerStep& step, double depth_m, double before_m, bool was_free) {
   return depth_m > deepest_entered_m(step, before_m, was_free);
 }
+
+/// Whether a finger that was so deep in something can't have left it since the last tick.
+bool is_pressed(const FingerStep& step, double before_m);
 
 /// A deeper place takes over, if one was found that was entered. True where it did.
 bool decide_rival(const ContactContext& context, const RivalResult& rival, double tracked_depth_m,

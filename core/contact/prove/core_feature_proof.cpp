@@ -2,6 +2,7 @@
 
 #include "core/contact/prove/certain_margin.h"
 #include "core/contact/prove/core_crease_proof.h"
+#include "core/contact/prove/depth_margin.h"
 #include "core/contact/prove/feature_nets.h"
 #include "core/mesh/vertex_ring.h"
 #include "core/surface/patch_edge.h"
@@ -55,11 +56,6 @@ bool is_enough(double margin, double enough_m) { return margin > 0.0 && margin >
 double margin_by_touch(const FingerCore& core, const SurfaceBounds& part, const RankBound& bound, double enough_m) {
   const double margin = touch_margin(core, part, enough_m);
   return is_enough(margin, enough_m) ? margin : std::max(margin, margin_by_distance(core, part, bound));
-}
-
-/// By how deep a finger can be over planes with these normals.
-double margin_by_depth(const FingerCore& core, const NormalCone& normals, const RankBound& bound) {
-  return bound.rank_m < core.deep_rank_m() ? bound.way_to(core.least_rank(normals)) : 0.0;
 }
 
 double margin_of(const FingerCore& core, const SurfaceBounds& part, const RankBound& bound, double enough_m) {

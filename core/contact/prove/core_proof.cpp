@@ -5,6 +5,7 @@
 #include "core/contact/nearest_triangles.h"
 #include "core/contact/prove/certain_margin.h"
 #include "core/contact/prove/core_feature_proof.h"
+#include "core/contact/prove/depth_margin.h"
 #include "core/contact/prove/linear_core.h"
 #include "core/contact/prove/rank_place.h"
 #include "core/mesh/vertex_ring.h"
@@ -44,9 +45,9 @@ SurfaceBounds bounds_of(const PnPatch& patch, const NormalCone& cone) {
   return bounds_of(points, cone);
 }
 
-/// By how deep the finger can be over planes with a part's normals, or how far the centre is behind them.
+/// The same, and by how far the centre is behind the part's planes.
 double margin_by_depth(const FingerCore& core, const SurfaceBounds& part, const RankBound& bound) {
-  const double steep = bound.rank_m < core.deep_rank_m() ? bound.way_to(core.least_rank(part.normals)) : 0.0;
+  const double steep = margin_by_depth(core, part.normals, bound);
   const double behind = behind_m(core, part);
   return behind > 0.0 ? std::max(steep, bound.way_to(core.reach_m() + behind)) : steep;
 }

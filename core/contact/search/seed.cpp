@@ -135,17 +135,17 @@ bool offer_beyond_fold(ContactContext& context, const IterationResult& unstable,
 
 /// Along a sharp edge, or out over a rim, the steps of a finger that is not round may go to and fro beside an end of
 /// it, where the contact is.
-bool offer_ends(ContactContext& context, const IterationResult& cycling, double most, ContactQuery& q,
+bool offer_ends(ContactContext& context, const IterationResult& stuck, double most, ContactQuery& q,
                 SeedSelection& selection) {
-  const bool lost = cycling.stop == StopReason::cycling || cycling.stop == StopReason::left_boundary;
-  if (!lost || cycling.plane.feature != Feature::edge || is_round(context.finger) ||
-      !(contact_rank(context.finger, cycling.contact) < selection.bound_m(most)))
+  const bool lost = stuck.stop == StopReason::cycling || stuck.stop == StopReason::left_boundary;
+  if (!lost || stuck.plane.feature != Feature::edge || is_round(context.finger) ||
+      !(contact_rank(context.finger, stuck.contact) < selection.bound_m(most)))
     return false;
   bool found = false;
-  for (const std::uint32_t corner : {std::uint32_t{cycling.plane.side}, (cycling.plane.side + 1u) % 3u}) {
+  for (const std::uint32_t corner : {std::uint32_t{stuck.plane.side}, (stuck.plane.side + 1u) % 3u}) {
     const Vec2 uv = corner_uv(corner);
     IterationResult r;
-    iterate(context, {Feature::vertex, static_cast<std::uint8_t>(corner), cycling.plane.triangle, uv.x, uv.y},
+    iterate(context, {Feature::vertex, static_cast<std::uint8_t>(corner), stuck.plane.triangle, uv.x, uv.y},
             kSeedBudget, r);
     q.work += SearchWork::of_core().evaluation * r.evaluations;
     found = selection.offer(context, r) || found;

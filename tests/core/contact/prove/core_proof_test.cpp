@@ -28,6 +28,17 @@ PolygonMesh bent_triangle(Random& random, double spread) {
   return one_triangle(p, n);
 }
 
+/// All of its edges are creases, convex and hollow ones.
+ContactMesh sharp_ball(Random& random) {
+  ContactMeshOptions options;
+  options.crease_rad = 0.1;
+  PolygonMesh ball = make_icosphere(0.010, 1);
+  for (Vec3& p : ball.positions) p *= random.in(0.8, 1.2);
+  ball.normals.clear();
+  ball.corner_normal.clear();
+  return *ContactMesh::build(ball, options);
+}
+
 /// A pose from which the finger comes to that one, and how far that is.
 FingerPose before(const Finger& finger, const FingerPose& there, double way_m, Random& random, double& gone_m) {
   const double turns = random.in(0.0, 1.0);
@@ -246,13 +257,7 @@ TEST_CASE("no rank excludes a contact of an ellipsoid or a capsule, however deep
     cache.sample(t, NormalForm::bernstein, at.x, at.y, s);
     return std::pair(s.point, s.normal);
   };
-  ContactMeshOptions options;
-  options.crease_rad = 0.1;
-  PolygonMesh ball = make_icosphere(0.010, 1);
-  for (Vec3& p : ball.positions) p *= random.in(0.8, 1.2);
-  ball.normals.clear();
-  ball.corner_normal.clear();
-  const ContactMesh sharp = *ContactMesh::build(ball, options);
+  const ContactMesh sharp = sharp_ball(random);
   const ContactMesh sheet = *ContactMesh::build(bent_triangle(random, 0.3));
   for (const FingerShape shape : kCoreShapes) {
     CAPTURE(static_cast<int>(shape));
@@ -356,13 +361,7 @@ TEST_CASE("where a face holds a contact of an ellipsoid or a capsule its rank is
 
 TEST_CASE("no contact of an ellipsoid or a capsule comes up on a crease or a vertex within the margin") {
   Random random(74);
-  ContactMeshOptions options;
-  options.crease_rad = 0.1;
-  PolygonMesh ball = make_icosphere(0.010, 1);
-  for (Vec3& p : ball.positions) p *= random.in(0.8, 1.2);
-  ball.normals.clear();
-  ball.corner_normal.clear();
-  const ContactMesh mesh = *ContactMesh::build(ball, options);
+  const ContactMesh mesh = sharp_ball(random);
   for (const FingerShape shape : kCoreShapes) {
     CAPTURE(static_cast<int>(shape));
     std::uint32_t t = 0;
