@@ -33,4 +33,9 @@ inline int tick_work(double late_m, double most_late_m) {
   return static_cast<int>(kTickWork * (1.0 + (kLateWork - 1.0) * std::min(1.0, late_m / most_late_m)));
 }
 
+/// In a first tick, or one after a leap, ticks' work: up to the rank that its contact likely has, and of everything.
+/// Larger: late ticks; smaller: a finger that is put deep into something starts at a shallower place more often, and
+/// goes on to the deepest in the ticks after.
+inline constexpr int kStartWork = 8, kStartWorkOfAll = 3;
+
 }  // namespace tangent

@@ -91,6 +91,7 @@ inline void find_smooth(const ContactScene& scene, StepCache& cache, const TickC
   const Vec3 moved = finger_way(tick.pose.position, tick.t_s, tick.state).moved;
   ContactContext context{cache.patches, settings, tick.finger,        tick.local, tick.origin,
                          tick.trace,    0,        finger_way_m(tick), moved};
+  context.in_real_time = !tick.all_at_once;
   cache.patches.expect_around(tick.state.plane.triangle);
   const bool sample_is_kept = cache.holds(tick.state.plane, settings.normal_form);
   find_smooth_contact(context, scene.search(), sample_is_kept, tick.state, cache.smooth,

@@ -6,6 +6,7 @@
 #include "core/tick/walls.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace tangent {
 namespace {
@@ -18,7 +19,7 @@ Gone gone_to(const ContactContext& context, const TickState& state, double gone)
 /// Asks whether another place can be deeper than the followed contact, and only then looks.
 void watch_others(ContactContext& context, const SearchStructures& search, TickState& state, DecidedContact& decided) {
   const double rank = contact_rank(context.finger, decided.contact.contact);
-  const Takeover takeover = takeover_from(context, decided.contact.contact);
+  const Takeover takeover = takeover_from(context, decided.contact.contact, !state.unentered);
   const double gone = gone_m(state.clearance, context.finger, context.pose);
   if (!deeper_possible(state.clearance, context.pose, gone, takeover.bound_m)) return;
   const double ahead = look_ahead_m(context, rank, state.clearance.ahead);
@@ -40,9 +41,9 @@ double depth_before(const ContactContext& context, const TickState& state) {
 
 bool found_before(const TickState& state) { return state.has_converged && state.last_converged_s >= state.last_t_s; }
 
-/// Until one was found at all, places count as entered as at a first tick ...
+/// Until one was found where the finger was put, places count as entered as at a first tick ...
 bool is_starting(const ContactContext& context, const TickState& state) {
-  return !state.has_converged && context.settings.method == Method::robust;
+  return state.start != Start::found && context.settings.method == Method::robust;
 }
 /// ... but for those that the centre is so far behind: where that tick found none, behind an open sheet, say, a later
 /// one does not push from there.
@@ -50,7 +51,7 @@ double most_behind_m(const ContactContext& context) { return context.hystereses_
 
 /// Whether a place is unentered at which the contact leapt or started anew.
 bool is_unentered(ContactContext& context, const TickState& state, const IterationResult& found, int& evaluations) {
-  if (is_starting(context, state)) return found.contact.height_m < -most_behind_m(context);
+  if (is_starting(context, state)) return !found_before(state) && found.contact.height_m < -most_behind_m(context);
   const double before = std::max(depth_before(context, state), deepest_m(context, state.touched, evaluations));
   const bool was_free = found_before(state) && !(before > 0.0);
   return is_unentered(step_of(context), found.contact.penetration_m, before, was_free);
@@ -87,8 +88,12 @@ bool look_for_touched(ContactContext& context, const SearchStructures& search, c
   const std::size_t followed = touched.count;
   const TouchedContact tracked{decided.contact.plane, decided.contact.contact};
   const bool has_far_side = !state.unentered && !was_put_elsewhere(step_of(context));
+  const double least = state.unentered || (!is_round(context.finger) && tracked.contact.height_m < 0.0)
+                           ? -context.hystereses_m(kLeftTouch)
+                           : -std::numeric_limits<double>::infinity();
   for (const TouchedContact& c : rival.touched.all())
-    if (was_entered(step_of(context), c.contact.penetration_m, depth) && !(has_far_side && is_far_side(c, tracked)))
+    if (c.contact.penetration_m >= least && was_entered(step_of(context), c.contact.penetration_m, depth) &&
+        !(has_far_side && is_far_side(c, tracked)))
       touched.add(c, kMergedPlaces * context.settings.tolerance_m);
   if (touched.count > followed || touched.full()) decided.places_changed = true;
   rival.deeper = rival.deeper && !pushes_with_others(rival.best.contact) &&
@@ -110,7 +115,7 @@ void watch_touched(ContactContext& context, const SearchStructures& search, Tick
     decided.places_changed = !followed.all || followed.folded;
   }
   const PlaneContact& tracked = decided.contact.contact;
-  const Takeover takeover = takeover_from(context, tracked, tracked.penetration_m > 0.0 ? kTremor : 1.0);
+  const Takeover takeover = takeover_from(context, tracked, false, tracked.penetration_m > 0.0 ? kTremor : 1.0);
   if (look_for_touched(context, search, takeover, state, decided, touched) || state.unentered) return;
   if (!is_behind_in_inner_edge(context, decided.contact, touched))
     decide_touched(context, takeover.bound_m, touched, state.plane, decided);
@@ -147,13 +152,14 @@ EnteredPlaces entered_places(ContactContext& context, const TickState& state, in
   return entered;
 }
 
-/// Where following failed.
-void start_anew(ContactContext& context, const SearchStructures& search, bool first, const EnteredPlaces& entered,
+/// Where following failed. `begins`: a first tick, or one after a leap.
+void start_anew(ContactContext& context, const SearchStructures& search, bool begins, const EnteredPlaces& entered,
                 TickState& state, DecidedContact& decided) {
-  const bool in_vain = !first && !found_before(state);  // not where there was no search at all, as in an unready tick
+  const bool in_vain = !begins && !found_before(state);  // not where there was no search at all, as in an unready tick
   if (!in_vain) state.clearance = Clearance{};
+  const bool in_parts = begins || state.has_previous;
   const SeedResult seeded =
-      seed_contact(context, search, state.plane, in_vain, state.has_previous ? &state.clearance : nullptr, entered);
+      seed_contact(context, search, state.plane, in_vain, in_parts ? &state.clearance : nullptr, entered);
   decided.searching = seeded.searching;
   if (seeded.searching && seeded.best.converged() && !entered.go_on_at(seeded.best.plane, seeded.best.contact)) {
     // Where the search is not through, the place that the finger came into may be still to come.
@@ -163,7 +169,7 @@ void start_anew(ContactContext& context, const SearchStructures& search, bool fi
     return;
   }
   decide_start(seeded, state.plane, decided);
-  if (decided.converged()) state.clearance = Clearance{};
+  if (decided.converged() && !(begins && seeded.searching)) state.clearance = Clearance{};
 }
 
 /// Where the followed contact has leapt into what was not entered: back to what was. False: there is none, or the
@@ -185,75 +191,116 @@ bool go_back_to_entered(ContactContext& context, const SearchStructures& search,
 
 /// A finger that has been put elsewhere starts at the deepest place there, unless that is the one that was followed.
 /// True where it did.
-bool start_after_leap(ContactContext& context, const SearchStructures& search, const TickState& state,
+bool start_after_leap(ContactContext& context, const SearchStructures& search, TickState& state,
                       DecidedContact& decided) {
-  if (!was_put_elsewhere(step_of(context)) || context.settings.method != Method::robust) return false;
-  const SeedResult seeded = seed_contact(context, search, state.plane);
-  const double rank = contact_rank(context.finger, decided.contact.contact);
-  const bool deeper = seeded.best.converged() &&
-                      contact_rank(context.finger, seeded.best.contact) < takeover_bound_m(context.settings, rank);
-  if (deeper) {
+  if (context.settings.method != Method::robust) return false;
+  Clearance begun;
+  const SeedResult seeded = seed_contact(context, search, state.plane, false, &begun);
+  decided.searching = seeded.searching;
+  const bool started = decide_deeper_start(context, seeded, state.plane, decided);
+  if (started || seeded.searching) state.clearance = begun;
+  if (started) state.unentered = 0;
+  return started;
+}
+
+/// A first search that is not through goes on. `found`: there is a contact already.
+void go_on_starting(ContactContext& context, const SearchStructures& search, bool found, TickState& state,
+                    DecidedContact& decided) {
+  const SeedResult seeded = go_on_with_start(context, search, found ? &decided.contact : nullptr, state.clearance);
+  decided.searching = seeded.searching && context.late_m <= context.hystereses_m(kLeapOfFinger);
+  if (!decided.searching) state.clearance = Clearance{};
+  if (found) {
+    if (!decide_deeper_start(context, seeded, state.plane, decided)) return;
+    decided.event = TickEvent::switched;
+    state.unentered = 0;
+  } else if (seeded.found) {
     decide_start(seeded, state.plane, decided);
+    state.unentered = 0;
   } else {
     decided.evaluations += seeded.evaluations;
+    decided.contact.stop = StopReason::facing;
+    decided.event = TickEvent::reseed;
   }
-  return deeper;
+}
+
+/// Whether the followed contact counts as entered, and if not, whether there is one to go back to. True where it was
+/// gone back.
+bool judge_followed(ContactContext& context, const SearchStructures& search, Followed followed, TickState& state,
+                    DecidedContact& decided, TouchedContacts* touched) {
+  if (!(decided.contact.contact.penetration_m > 0.0)) {
+    state.unentered = 0;  // left: from now on it counts
+    return false;
+  }
+  const bool leapt = followed == Followed::branched;
+  if (state.unentered || (!leapt && found_before(state)) ||
+      !is_unentered(context, state, decided.contact, decided.evaluations))
+    return false;
+  const bool went_back = leapt && go_back_to_entered(context, search, state, decided, touched);
+  state.unentered = !went_back;
+  return went_back;
+}
+
+/// Where a first search stands now. `begins`: it began in this tick.
+Start start_after(bool begins, Start before, const DecidedContact& decided) {
+  if ((begins || before == Start::searching) && decided.searching) return Start::searching;
+  if (decided.converged()) return Start::found;
+  return begins || before == Start::searching ? Start::in_vain : before;
+}
+
+/// The place to render, but for others that are deeper: the followed one, or what is found where it was lost or the
+/// finger starts. True where it is followed on.
+bool follow_or_start(ContactContext& context, const SearchStructures& search, bool sample_is_kept, TickState& state,
+                     DecidedContact& decided, TouchedContacts* touched) {
+  const bool first = state.plane.feature == Feature::none, leapt = was_put_elsewhere(step_of(context));
+  const bool robust = context.settings.method == Method::robust;  // until now the method may have been another
+  if (first || leapt || (state.start == Start::searching && !robust)) state.start = Start::found;
+  const Followed followed = first ? Followed::lost : follow(context, state.plane, sample_is_kept, decided.contact);
+  decide_followed(followed, first, decided);
+  bool follows = followed != Followed::lost && !(leapt && start_after_leap(context, search, state, decided));
+  if (follows && judge_followed(context, search, followed, state, decided, touched)) {
+    state.clearance = Clearance{};
+    follows = false;
+  }
+  if (state.start == Start::searching) {
+    go_on_starting(context, search, followed != Followed::lost, state, decided);
+  } else if (followed == Followed::lost) {
+    if (touched && go_on_with_touched(context, state, decided, *touched)) {
+      state.clearance = Clearance{};
+      state.unentered = 0;
+      decided.searching = leapt;  // not yet where it was put
+    } else {
+      const EnteredPlaces entered = first ? EnteredPlaces{} : entered_places(context, state, decided.evaluations);
+      start_anew(context, search, first || leapt, entered, state, decided);
+      if (!decided.facing())  // there, nothing could be entered
+        state.unentered = !entered.hold(decided.contact.plane, decided.contact.contact);
+    }
+  }
+  state.start = start_after(first || leapt, state.start, decided);
+  return follows;
 }
 
 }  // namespace
 
-static void find_and_watch(ContactContext& context, const SearchStructures& search, bool sample_is_kept,
-                           TickState& state, DecidedContact& decided, TouchedContacts* touched) {
-  const bool first = state.plane.feature == Feature::none;
-  decided.places_changed = false;
+void find_smooth_contact(ContactContext& context, const SearchStructures& search, bool sample_is_kept, TickState& state,
+                         DecidedContact& decided, TouchedContacts* touched) {
+  context.late_m = double{state.late_m};
+  decided.searching = decided.places_changed = false;
   if (!touched && state.touched.count > 0) {  // they were followed until now, and are looked for no more
     state.touched.count = 0;
     state.clearance = Clearance{};
   }
-  Followed followed = first ? Followed::lost : follow(context, state.plane, sample_is_kept, decided.contact);
-  decide_followed(followed, first, decided);
-  const bool started = followed != Followed::lost && start_after_leap(context, search, state, decided);
-  if (started) followed = Followed::lost;
-  bool went_back = false;
-  if (followed != Followed::lost && !(decided.contact.contact.penetration_m > 0.0)) {
-    state.unentered = 0;  // left: from now on it counts
-  } else if (followed != Followed::lost && !state.unentered) {
-    const bool leapt = followed == Followed::branched;
-    if ((leapt || !found_before(state)) && is_unentered(context, state, decided.contact, decided.evaluations)) {
-      went_back = leapt && go_back_to_entered(context, search, state, decided, touched);
-      state.unentered = !went_back;
-    }
+  const bool follows = follow_or_start(context, search, sample_is_kept, state, decided, touched);
+  const bool watches = state.start != Start::searching;  // else the tick has done enough
+  if (touched) {
+    touched->count = 0;
+    touched->with_walls = false;
+    if (watches && decided.converged()) watch_touched(context, search, state, decided, *touched);
+    if (touched->count > 0 || state.touched.count > 0) state.touched = touched->places();
+  } else if (watches && follows) {
+    watch_others(context, search, state, decided);
   }
-  if (followed != Followed::lost && !went_back) {
-    if (!touched) return watch_others(context, search, state, decided);
-  } else if (went_back) {
-    state.clearance = Clearance{};
-  } else if (touched && !started && go_on_with_touched(context, state, decided, *touched)) {
-    state.clearance = Clearance{};
-    state.unentered = 0;
-  } else {
-    const EnteredPlaces entered = first ? EnteredPlaces{} : entered_places(context, state, decided.evaluations);
-    if (started) {
-      state.clearance = Clearance{};
-    } else {
-      start_anew(context, search, first, entered, state, decided);
-    }
-    if (!decided.facing())  // there, nothing could be entered
-      state.unentered = !entered.hold(decided.contact.plane, decided.contact.contact);
-  }
-  if (!touched) return;
-  touched->count = 0;
-  touched->with_walls = false;
-  if (decided.converged()) watch_touched(context, search, state, decided, *touched);
-  if (touched->count > 0 || state.touched.count > 0) state.touched = touched->places();
-}
-
-void find_smooth_contact(ContactContext& context, const SearchStructures& search, bool sample_is_kept, TickState& state,
-                         DecidedContact& decided, TouchedContacts* touched) {
-  context.late_m = double{state.late_m};
-  decided.searching = false;
-  find_and_watch(context, search, sample_is_kept, state, decided, touched);
-  state.late_m = decided.searching ? static_cast<float>(context.late_m + context.moved_m) : 0.0f;
+  const double late = was_put_elsewhere(step_of(context)) ? 0.0 : context.late_m + context.moved_m;
+  state.late_m = decided.searching ? static_cast<float>(late) : 0.0f;
 }
 
 }  // namespace tangent

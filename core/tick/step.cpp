@@ -63,7 +63,8 @@ TickOutput Stepper::step(const Preset& preset, const TickInput& input, TickState
   const FingerPose& pose = usable ? input.finger : last;
   const Vec3& origin = scene_->mesh().origin();
   const FingerPose local{pose.position - origin, pose.orientation};
-  const TickContext tick{preset, preset.finger, input.t_s, pose, local, origin, state, trace, input.velocity};
+  const TickContext tick{preset, preset.finger, input.t_s, pose,           local,
+                         origin, state,         trace,     input.velocity, input.all_at_once};
   TickOutput out;
   if (usable && input.unready) {
     run_tick(tick, out, [&](TickPlanes& planes) { planes = TickPlanes::all(last_converged_plane(tick)); });

@@ -39,10 +39,11 @@ class StepCache {
   explicit StepCache(const ContactMesh& mesh) : patches(mesh) {}
 
   /// Whether `smooth` still holds the sample of this kept plane: the same place on a face or an edge, bit for bit.
+  /// Where a run did not converge its last sample may be of the place before.
   bool holds(const TrackedPlane& kept, NormalForm kept_form) const {
     const TrackedPlane& mine = smooth.contact.plane;
     if (kept.feature != mine.feature || kept.triangle != mine.triangle || kept.u != mine.u || kept.v != mine.v ||
-        kept_form != form)
+        kept_form != form || !smooth.contact.converged())
       return false;
     return kept.feature == Feature::face || (kept.feature == Feature::edge && kept.side == mine.side &&
                                              kept.turn == mine.turn && kept.normal == mine.normal);

@@ -41,6 +41,14 @@ struct ConvergedPlane {
   Vec3 normal{0.0, 0.0, 1.0};
 };
 
+/// What a first search, that of a first tick or of one after a leap, has come to. All that the finger is in then counts
+/// as entered, however deep.
+enum class Start : std::uint8_t {
+  found,      ///< the contact to follow
+  searching,  ///< it goes on: what comes up deeper is still where the finger starts
+  in_vain,    ///< there is no contact where the finger is
+};
+
 /// TickState::has_previous where the ticks since last_position had no usable pose: last_t_s is the time of the last.
 inline constexpr std::uint8_t kPoseIsOlder = 2;
 
@@ -56,6 +64,7 @@ struct TickState {
   std::uint8_t has_converged = 0;  ///< there was a converged tick
   std::uint8_t has_proxy = 0;      ///< proxy is set
   std::uint8_t unentered = 0;      ///< the tracked place was found from behind: it does not push until it is left
+  Start start = Start::found;
   float late_m = 0.0f;  ///< the finger's way while a search for deeper places was not done: so late one may be found
   Clearance clearance;
   Vec3 proxy{0.0};        ///< of the two-pass method, local, m
@@ -82,6 +91,8 @@ struct TickInput {
   /// What a search would read is not built yet and this tick does not wait for it: nothing is searched, force and
   /// display come from the last converged tick and fade (`unconverged`).
   bool unready = false;
+  /// A first search is done in this tick, however long it takes: of a pose that no tick follows, and nobody waits for.
+  bool all_at_once = false;
 };
 
 /// One row of ticks.csv. World frame, SI.

@@ -19,6 +19,7 @@ struct TickContext {
   TickState& state;
   IterationTrace* trace;
   const std::optional<Vec3>& velocity;  ///< of the finger, world, where the device measures it
+  bool all_at_once = false;             ///< TickInput::all_at_once
 };
 
 /// The plane that an unconverged tick renders: the last converged one at the present pose, ramping to zero; share

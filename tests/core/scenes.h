@@ -86,7 +86,9 @@ inline TickOutput solve_once(const ScenePtr& scene, const Preset& preset, const 
                              IterationTrace* trace = nullptr) {
   Stepper stepper(scene);
   TickState state;
-  return stepper.step(preset, {0.0, pose}, state, trace);
+  TickInput input{0.0, pose};
+  input.all_at_once = true;
+  return stepper.step(preset, input, state, trace);
 }
 inline TickOutput solve_once(const ScenePtr& scene, const Preset& preset, const Vec3& position) {
   return solve_once(scene, preset, {position, Quat(1.0, 0.0, 0.0, 0.0)});

@@ -79,8 +79,11 @@ void solve_fingers(const std::shared_ptr<const ContactScene>& scene, const Prese
   const std::size_t ticks = inputs.size() / fingers;
   for_each_finger(scene, fingers, threads, [&](Stepper& stepper, std::size_t finger) {
     TickState state;
-    for (std::size_t i = finger * ticks; i < (finger + 1) * ticks; ++i)
-      outputs[i] = stepper.step(preset, inputs[i], state);
+    for (std::size_t i = finger * ticks; i < (finger + 1) * ticks; ++i) {
+      TickInput input = inputs[i];
+      input.all_at_once = ticks == 1;
+      outputs[i] = stepper.step(preset, input, state);
+    }
   });
 }
 

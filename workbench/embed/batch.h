@@ -22,8 +22,8 @@ void for_each_finger(const std::shared_ptr<const ContactScene>& scene, std::size
                      const FingerWork& work);
 
 /// Finger f has the poses inputs[f * ticks] to inputs[(f + 1) * ticks - 1], in turn, from a fresh state, and `outputs`
-/// in the same places; ticks 1: poses that have nothing to do with each other. Preconditions: both spans hold fingers *
-/// ticks; the preset is within its ranges.
+/// in the same places; ticks 1: poses that have nothing to do with each other, each searched to the end in its tick
+/// (TickInput::all_at_once). Preconditions: both spans hold fingers * ticks; the preset is within its ranges.
 void solve_fingers(const std::shared_ptr<const ContactScene>& scene, const Preset& preset,
                    std::span<const TickInput> inputs, std::span<TickOutput> outputs, std::size_t fingers,
                    unsigned threads = 0);

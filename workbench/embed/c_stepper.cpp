@@ -192,7 +192,9 @@ tangent_status tangent_solve_fingers(tangent_stepper* stepper, const tangent_pre
       TickState state;
       for (std::size_t tick = 0; tick < ticks && !stepper->cancelled.load(std::memory_order_relaxed); ++tick) {
         const std::size_t i = finger * ticks + tick;
-        const TickOutput out = mine.step(preset->preset, c::input_of(inputs[i]), state);
+        TickInput input = c::input_of(inputs[i]);
+        input.all_at_once = ticks == 1;
+        const TickOutput out = mine.step(preset->preset, input, state);
         c::write_output(out, tick, inputs[i].t_s, outputs[i]);
       }
     });

@@ -179,9 +179,9 @@ const char* tangent_stepper_error(const tangent_stepper* stepper);
 void tangent_free_stepper(tangent_stepper* stepper);
 
 /** Many fingers at once on the stepper's scene, on `threads` threads (0: one per core): finger f has the poses
- * inputs[f * ticks] and on, each from the start of its own path; ticks 1: poses that have nothing to do with each
- * other. The same bits as by a stepper per finger, whatever the number of threads. The stepper's own finger stays as it
- * is. */
+ * inputs[f * ticks] and on, each from the start of its own path. The same bits as by a stepper per finger, whatever the
+ * number of threads; but with ticks 1, poses that have nothing to do with each other, no tick leaves a part of its
+ * search to the next (`searching`). The stepper's own finger stays as it is. */
 tangent_status tangent_solve_fingers(tangent_stepper* stepper, const tangent_preset* preset,
                                      const tangent_input* inputs, tangent_output* outputs, size_t fingers, size_t ticks,
                                      uint32_t threads);

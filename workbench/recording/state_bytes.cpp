@@ -52,7 +52,7 @@ template <class Stream>
 void describe(Stream& stream, TickState& s) {
   describe(stream, s.plane);
   stream.all(s.last_converged.point, s.last_converged.normal, s.last_converged_s, s.last_position, s.last_orientation,
-             s.last_t_s, s.has_previous, s.has_converged, s.has_proxy, s.unentered, s.late_m);
+             s.last_t_s, s.has_previous, s.has_converged, s.has_proxy, s.unentered, s.start, s.late_m);
   describe(stream, s.clearance);
   stream.all(s.proxy, s.touched.count);
   s.touched.count = std::min<std::uint32_t>(s.touched.count, kMostTouched);
@@ -69,7 +69,7 @@ bool can_be(const SurfacePlace& place, const ContactScene& scene) {
 }
 
 bool can_be(const TickState& state, const ContactScene& scene) {
-  bool possible = can_be(state.plane, scene);
+  bool possible = can_be(state.plane, scene) && state.start <= Start::in_vain;
   for (std::uint32_t i = 0; i < state.touched.count; ++i) possible = possible && can_be(state.touched.places[i], scene);
   for (const WatchedTriangle& watched : state.clearance.on_watch()) {
     if (scene.planar() != nullptr) return possible;

@@ -15,8 +15,18 @@ void adopt(const IterationResult& contact, const TrackedPlane& kept, DecidedCont
 
 }  // namespace
 
-Takeover takeover_from(const ContactContext& context, const PlaneContact& followed, double hystereses) {
+/// Whether the centre of a finger that is not round is behind what it touches.
+static bool is_behind(const Finger& finger, const PlaneContact& contact) {
+  return !is_round(finger) && contact.height_m < 0.0 && contact.penetration_m > 0.0;
+}
+
+Takeover takeover_from(const ContactContext& context, const PlaneContact& followed, bool pushes_alone,
+                       double hystereses) {
   const double bound = takeover_bound_m(context.settings, contact_rank(context.finger, followed), hystereses);
+  if (pushes_alone && is_behind(context.finger, followed)) {
+    const double touching = context.finger.reach_m();
+    return {std::min(bound, touching), touching < bound};
+  }
   if (!is_free(context.finger, followed)) return {bound, false};
   const double soon = context.soon_touched_rank();
   return {std::min(bound, soon), soon < bound};
@@ -52,7 +62,7 @@ double deepest_entered_m(const FingerStep& step, double before_m, bool was_free)
 
 /// Behind a sheet its rim, where it is not touched, ranks before the place that pushes there.
 static bool is_no_way_out(const ContactContext& context, const PlaneContact& place, const PlaneContact& tracked) {
-  return is_free(context.finger, place) && tracked.height_m < 0.0 && tracked.penetration_m > 0.0;
+  return is_free(context.finger, place) && is_behind(context.finger, tracked);
 }
 
 bool decide_rival(const ContactContext& context, const RivalResult& rival, double tracked_depth_m,
@@ -80,12 +90,23 @@ bool decide_touched(ContactContext& context, double bound_m, TouchedContacts& to
   IterationResult contact;
   ContactContext quiet = context;
   quiet.trace = nullptr;
-  iterate_kept(quiet, deepest->plane, false, kTrackBudget, contact);
+  lead(quiet, deepest->plane, contact);
   decided.evaluations += contact.evaluations;
   if (!contact.converged()) return false;
   *deepest = {decided.contact.plane, decided.contact.contact};
   adopt(contact, kept, decided);
   decided.event = TickEvent::switched;
+  return true;
+}
+
+bool decide_deeper_start(const ContactContext& context, const SeedResult& seeded, const TrackedPlane& kept,
+                         DecidedContact& decided) {
+  const double bound = takeover_bound_m(context.settings, contact_rank(context.finger, decided.contact.contact));
+  if (!seeded.best.converged() || !(contact_rank(context.finger, seeded.best.contact) < bound)) {
+    decided.evaluations += seeded.evaluations;
+    return false;
+  }
+  decide_start(seeded, kept, decided);
   return true;
 }
 

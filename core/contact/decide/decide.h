@@ -35,8 +35,10 @@ struct Takeover {
   bool stays = false;    ///< however the followed one's changes
 };
 /// Those that are deeper by so many hystereses. Of a finger that is not round and touches nothing, only those that it
-/// may soon touch: where the others are nobody feels.
-Takeover takeover_from(const ContactContext& context, const PlaneContact& followed, double hystereses = 1.0);
+/// may soon touch: where the others are nobody feels. Behind a place that `pushes_alone`, only those that it touches: a
+/// rim beside it that is free is no way out.
+Takeover takeover_from(const ContactContext& context, const PlaneContact& followed, bool pushes_alone,
+                       double hystereses = 1.0);
 
 /// The followed contact stays (decided.contact holds it), until another is decided on. `first`: there was none.
 void decide_followed(Followed followed, bool first, DecidedContact& decided);
@@ -51,7 +53,7 @@ inline FingerStep step_of(const ContactContext& context) {
   return {context.moved_m, context.settings.switch_hysteresis_m, context.late_m};
 }
 
-/// Whether the finger has been put elsewhere: what it is in then counts as entered.
+/// Whether the finger has been put elsewhere, so far it has come: what it is in then counts as entered.
 bool was_put_elsewhere(const FingerStep& step);
 
 /// Whether a place this deep can have been entered from outside since the last tick, at which none was deeper than the
@@ -79,6 +81,11 @@ bool decide_rival(const ContactContext& context, const RivalResult& rival, doubl
 /// True where it did.
 bool decide_touched(ContactContext& context, double bound_m, TouchedContacts& touched, const TrackedPlane& kept,
                     DecidedContact& decided);
+
+/// Where the finger was put somewhere: what was found there takes over from the followed one, if it is deeper. True
+/// where it did.
+bool decide_deeper_start(const ContactContext& context, const SeedResult& seeded, const TrackedPlane& kept,
+                         DecidedContact& decided);
 
 /// Where following failed: the seeded contact, or the lost one where seeding did no better.
 void decide_start(const SeedResult& seeded, const TrackedPlane& kept, DecidedContact& decided);

@@ -97,4 +97,12 @@ Followed follow(ContactContext& context, const TrackedPlane& kept, bool sample_i
   return Followed::lost;
 }
 
+void lead(ContactContext& context, const TrackedPlane& contact, IterationResult& result) {
+  if (is_in_hollow(context, contact) && find_in_hollow(context, contact, result)) return;
+  iterate_kept(context, contact, false, kTrackBudget, result);
+  if (result.converged() || contact.feature == Feature::face) return;
+  const int evaluations = result.evaluations;
+  if (find_in_hollow(context, contact, result)) result.evaluations += evaluations;
+}
+
 }  // namespace tangent

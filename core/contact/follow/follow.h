@@ -16,4 +16,7 @@ enum class Followed : std::uint8_t {
 /// leapt. Precondition: kept.feature is not none.
 Followed follow(ContactContext& context, const TrackedPlane& kept, bool sample_is_kept, IterationResult& result);
 
+/// A known contact seen from the context's pose, which may be that of another tick: one in a hollow crease as well.
+void lead(ContactContext& context, const TrackedPlane& contact, IterationResult& result);
+
 }  // namespace tangent

@@ -485,7 +485,9 @@ Look RivalSearch::solve_from(const PartOfTriangle& part, const PatchExclusion& p
   const double rank = contact_rank(context_.finger, r.contact);
   if (touched_ && rank < bound_m_ && pushes_with_others(r.contact))
     result.touched.add({r.plane, r.contact}, kMergedPlaces * settings_.tolerance_m);
-  if (rank < deepest_) {
+  // Where others push, too, those are told of above, and what takes over is a place that does not push with them.
+  const bool is_told = core_ && touched_ && pushes_with_others(r.contact);
+  if (rank < deepest_ && !is_told) {
     deepest_ = rank;
     result.best = r;
     result.deeper = true;

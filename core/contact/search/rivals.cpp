@@ -2,6 +2,7 @@
 
 #include "core/base/tolerances.h"
 #include "core/contact/contact_rank.h"
+#include "core/contact/follow/follow.h"
 #include "core/contact/prove/clearance_check.h"
 #include "core/contact/search/rival_search.h"
 
@@ -30,7 +31,7 @@ struct BegunSearch {
 
   /// Leads the tracked contact back there. False: it is another one there.
   bool track(const TrackedPlane& plane) {
-    iterate_kept(context, plane, false, kTrackBudget, tracked);
+    lead(context, plane, tracked);
     return tracked.converged() && glm::dot(tracked.plane.normal, plane.normal) >= kJumpCosine;
   }
 
@@ -50,15 +51,15 @@ struct BegunSearch {
 void lead_here(const ContactContext& context, const RivalResult& found, double bound_m, RivalResult& result) {
   ContactContext here = context;
   here.trace = nullptr;
-  const auto lead = [&](const TrackedPlane& plane, IterationResult& r) {
-    iterate_kept(here, plane, false, kTrackBudget, r);
+  const auto counts = [&](const TrackedPlane& plane, IterationResult& r) {
+    lead(here, plane, r);
     result.evaluations += r.evaluations;
     return r.converged() && contact_rank(context.finger, r.contact) < bound_m;
   };
-  result.deeper = found.deeper && lead(found.best.plane, result.best);
+  result.deeper = found.deeper && counts(found.best.plane, result.best);
   for (const TouchedContact& c : found.touched.all()) {
     IterationResult r;
-    if (lead(c.plane, r) && pushes_with_others(r.contact))
+    if (counts(c.plane, r) && pushes_with_others(r.contact))
       result.touched.add({r.plane, r.contact}, kMergedPlaces * context.settings.tolerance_m);
   }
 }

@@ -2,6 +2,7 @@
 
 #include "core/base/tolerances.h"
 #include "core/contact/contact_rank.h"
+#include "core/contact/follow/follow.h"
 #include "core/contact/follow/hollow.h"
 #include "core/contact/prove/clearance_check.h"
 #include "core/contact/prove/triangle_proof.h"
@@ -64,16 +65,26 @@ ContactQuery query_for_all(ContactContext& context, std::optional<FingerCore>& c
 
 SearchWork work_of(const Finger& finger) { return is_round(finger) ? SearchWork::of_round() : SearchWork::of_core(); }
 
+/// A search of everything that is begun now.
+Clearance begun_at(const FingerPose& pose) {
+  Clearance begun;
+  begun.centre = pose.position;
+  begun.orientation = pose.orientation;
+  return begun;
+}
+
+/// Whether a search for seeds is under way that a finger here can go on with.
+bool is_under_way(const ContactContext& context, const Clearance& begun) {
+  const bool of_rivals = begun.margin_m >= 0.0;  // one of a tick before that searched for other things
+  return begun.under_way && !of_rivals &&
+         gone_m(begun, context.finger, context.pose) <= context.hystereses_m(kMostLate);
+}
+
 /// A part of one search of everything, from the pose that it began at. What it finds there is led to the present pose.
 /// False: it goes on at the next tick.
 bool seed_in_parts(ContactContext& context, const SearchStructures& search, int work, Clearance& begun,
                    SeedSelection& selection) {
-  const bool of_rivals = begun.margin_m >= 0.0;  // one of a tick before that searched for other things
-  if (!begun.under_way || of_rivals || gone_m(begun, context.finger, context.pose) > context.hystereses_m(kMostLate)) {
-    begun = Clearance{};
-    begun.centre = context.pose.position;
-    begun.orientation = context.pose.orientation;
-  }
+  if (!is_under_way(context, begun)) begun = begun_at(context.pose);
   const FingerPose pose{begun.centre, begun.orientation};
   ContactContext there{context.cache, context.settings, context.finger, pose, context.origin};
   std::optional<FingerCore> core;
@@ -92,7 +103,7 @@ bool seed_in_parts(ContactContext& context, const SearchStructures& search, int 
     q.work += cost.evaluation * then.evaluations;
     selection.result.evaluations += then.evaluations;
     if (!then.converged() || !(contact_rank(context.finger, then.contact) < rank)) return true;
-    iterate_kept(context, then.plane, false, kTrackBudget, now);
+    lead(context, then.plane, now);
     const bool counts = selection.offer(context, now) && selection.group_of(context, now) == SeedGroup::entered;
     if (!counts) return true;
     rank = contact_rank(context.finger, then.contact);
@@ -154,8 +165,8 @@ bool offer_ends(ContactContext& context, const IterationResult& stuck, double mo
 }
 
 /// Contacts of a rank below `most`. What failed before is not tried again: it would start from the same place. False:
-/// the work was used up before the end.
-bool seed_by_hierarchy(ContactContext& context, const SearchStructures& search, double most, int work,
+/// the work was used up before the end, and `from` is where to go on.
+bool seed_by_hierarchy(ContactContext& context, const SearchStructures& search, double most, int work, VisitPlace& from,
                        FailedStarts& failed, SeedSelection& selection) {
   std::optional<FingerCore> core;
   ContactQuery query = query_for_all(context, core);
@@ -193,7 +204,6 @@ bool seed_by_hierarchy(ContactContext& context, const SearchStructures& search, 
       context.most_crossings = kMostRivalCrossings;
     return solves < kMaxSolves;
   };
-  VisitPlace from;
   const bool through = search.hierarchy.visit_from(from, query, visit);
   if (!through || solves >= kMaxSolves) failed.break_off();
   context.core = nullptr;
@@ -320,6 +330,7 @@ StartWork start_work(const ContactContext& context, const TrackedPlane& kept, bo
   constexpr int kLost = 4, kLostOfCore = 14;  // ticks' work, in the one in which the contact was lost
   const bool in_motion = kept.feature != Feature::none && context.moved_m <= context.hystereses_m(kLeapOfFinger);
   StartWork work{in_motion};
+  if (!in_motion && context.in_real_time) return {false, kStartWork * kTickWork, kStartWorkOfAll * kTickWork};
   if (!in_motion || !in_parts) return work;
   work.likely = (is_round(context.finger) ? kLost : kLostOfCore) * kTickWork;
   work.everything = in_vain ? tick_work(context.late_m, context.hystereses_m(kMostLate)) : kLost * kTickWork;
@@ -333,14 +344,21 @@ void seed_robustly(ContactContext& context, const SearchStructures& search, cons
   const StartWork work = start_work(context, kept, in_vain, parts != nullptr);
   bool& searching = selection.result.searching;
   FailedStarts failed;
-  if (!in_vain) searching = !seed_by_hierarchy(context, search, most, work.likely, failed, selection);
+  VisitPlace from;
+  if (!in_vain) searching = !seed_by_hierarchy(context, search, most, work.likely, from, failed, selection);
   bool enough = searching || (selection.bounds_search() && selection.value < most);
   if (!enough && most < kUnlimited && !is_round(context.finger)) enough = seed_free(context, search, radius, selection);
   if (!enough && parts && work.in_motion) {
     searching = !seed_in_parts(context, search, work.everything, *parts, selection);
     if (searching) failed.break_off();
   } else if (!enough && (in_vain || most < kUnlimited)) {
-    searching = !seed_by_hierarchy(context, search, kUnlimited, work.everything, failed, selection);
+    from = {};
+    searching = !seed_by_hierarchy(context, search, kUnlimited, work.everything, from, failed, selection);
+  }
+  if (parts && searching && !work.in_motion) {
+    *parts = begun_at(context.pose);
+    parts->under_way = 1;
+    if (selection.bounds_search() || !(most < kUnlimited)) parts->next = from;  // else that was not everything
   }
   seed_in_hollow(context, search, radius, selection);
   if (!selection.found() || implausible(context, search, selection.result.best, selection.value))
@@ -372,6 +390,27 @@ SeedResult seed_contact(ContactContext& context, const SearchStructures& search,
     selection.result.best.stop = is_round(context.finger) ? StopReason::converged : StopReason::facing;
   }
   return selection.result;
+}
+
+SeedResult go_on_with_start(ContactContext& context, const SearchStructures& search, const IterationResult* tracked,
+                            Clearance& begun) {
+  if (!is_under_way(context, begun)) begun = begun_at(context.pose);
+  const FingerPose pose{begun.centre, begun.orientation};
+  ContactContext there{context.cache, context.settings, context.finger, pose, context.origin};
+  IterationResult then;
+  if (tracked) lead(there, tracked->plane, then);
+  const double most = tracked && then.converged() ? contact_rank(context.finger, then.contact) : kUnlimited;
+  FailedStarts failed;
+  SeedSelection selection{EnteredPlaces{}};
+  begun.under_way = !seed_by_hierarchy(there, search, most, tick_work(1.0, 1.0), begun.next, failed, selection);
+  SeedResult result;
+  result.searching = begun.under_way != 0;
+  result.evaluations = then.evaluations + selection.result.evaluations;
+  if (!selection.found()) return result;
+  lead(context, selection.result.best.plane, result.best);
+  result.evaluations += result.best.evaluations;
+  result.found = result.best.converged();
+  return result;
 }
 
 }  // namespace tangent

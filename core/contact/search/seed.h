@@ -24,9 +24,15 @@ struct SeedResult {
 /// `kept`: the plane that was tracked until now, if any; the nearest triangle is no further off than its triangle.
 /// `in_vain`: the last tick found no contact either, so that it saves time to look for one of any depth at once: the
 /// same contacts. `parts`: where none is found near the raw mesh, a finger in motion is searched for in parts, a tick's
-/// work each (search_work.h), and this is the search that is under way; null: at once. `entered`: a contact that is not
+/// work each (search_work.h), and this is the search that is under way; a first search in real time that breaks off
+/// leaves there where (go_on_with_start); null: at once. `entered`: a contact that is not
 /// one of these comes after all that are.
 SeedResult seed_contact(ContactContext& context, const SearchStructures& search, const TrackedPlane& kept,
                         bool in_vain = false, Clearance* parts = nullptr, const EnteredPlaces& entered = {});
+
+/// A first search that broke off goes on, from the pose that it began at, with contacts deeper than the `tracked` one
+/// there (null: there is none yet), and leads the deepest to the present pose. About a finger that has gone far since it begins anew.
+SeedResult go_on_with_start(ContactContext& context, const SearchStructures& search, const IterationResult* tracked,
+                            Clearance& begun);
 
 }  // namespace tangent

@@ -320,7 +320,8 @@ SurfaceDeviation surface_deviation(const ContactScene& from, const ContactScene&
     const PnPatch patch = make_patch(mesh, t);
     for (const auto& [u, v] : kSamples) {
       TickState state;
-      const TickInput input{0.0, {mesh.origin() + evaluate_point(patch, u, v), Quat(1.0, 0.0, 0.0, 0.0)}};
+      TickInput input{0.0, {mesh.origin() + evaluate_point(patch, u, v), Quat(1.0, 0.0, 0.0, 0.0)}};
+      input.all_at_once = true;
       const TickOutput contact = stepper.step(preset, input, state);
       if (contact.status == TickStatus::unconverged) {  // the nearest place will do
         ++out.unresolved;

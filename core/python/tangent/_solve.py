@@ -92,11 +92,12 @@ def solve(scene, preset, t_s, positions, orientations=None, velocities=None):
 
 
 def solve_fingers(scene, preset, t_s, positions, orientations=None, velocities=None, threads=0):
-    """Many fingers at once, on `threads` threads (0: one per core), the same bits as by `solve` for each.
+    """Many fingers at once, on `threads` threads (0: one per core), the same bits as by `solve` for each of more
+    than one tick.
 
     t_s: (fingers, ticks) s. positions: (fingers, ticks, 3) m. orientations: (fingers, ticks, 4), velocities: (fingers,
-    ticks, 3) m/s, as in solve. Poses that have nothing to do with each other are fingers of one tick. Returns (fingers,
-    ticks) of dtype TICKS.
+    ticks, 3) m/s, as in solve. Poses that have nothing to do with each other are fingers of one tick: then no
+    search is left to the next tick, as a first one of `solve` may be. Returns (fingers, ticks) of dtype TICKS.
     """
     threads = count("threads", threads)
     return _run(scene, preset, t_s, 2, "give it as (fingers, ticks)", (positions, orientations, velocities),

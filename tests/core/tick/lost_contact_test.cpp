@@ -4,6 +4,7 @@
 #include "core/contact/decide/decide.h"
 #include "tests/core/fingers.h"
 #include "tests/core/scenes.h"
+#include "tests/core/spiky_ground.h"
 
 #include <algorithm>
 #include <array>
@@ -14,38 +15,6 @@ using namespace tangent;
 using namespace tangent::test;
 
 namespace {
-
-/// Ground of cells with a height of its own at every corner.
-class Spikes {
- public:
-  Spikes(double height_m, std::uint64_t seed) {
-    Random random(seed);
-    for (double& z : heights_)
-      for (int i = 0; i < 4; ++i) z += 0.866 * height_m * random.in(-1.0, 1.0);  // all but a normal distribution
-  }
-  ScenePtr scene() const {
-    return scene_of(height_field(kHalf, kCells, [&](double x, double y) { return height(x, y); }));
-  }
-  double height(double x, double y) const {
-    const double u = cell(x), v = cell(y);
-    const int i = std::min(static_cast<int>(u), kCells - 1), j = std::min(static_cast<int>(v), kCells - 1);
-    const double a = u - i, b = v - j;
-    return (1.0 - b) * ((1.0 - a) * at(i, j) + a * at(i + 1, j)) +
-           b * ((1.0 - a) * at(i, j + 1) + a * at(i + 1, j + 1));
-  }
-  /// On a way over all of it, just below the ground.
-  Vec3 way(double t) const {
-    const double x = 0.025 * std::sin(3.1 * t), y = 0.025 * std::cos(2.3 * t);
-    return {x, y, height(x, y) - 5e-4};
-  }
-
- private:
-  static constexpr int kCells = 60;
-  static constexpr double kHalf = 0.040;
-  static double cell(double x) { return std::max(0.0, (x + kHalf) / (2.0 * kHalf) * kCells); }
-  double at(int i, int j) const { return heights_[static_cast<std::size_t>(j * (kCells + 1) + i)]; }
-  std::array<double, (kCells + 1) * (kCells + 1)> heights_{};
-};
 
 struct Pressed {
   int free = 0, facing = 0, touching = 0;
@@ -89,33 +58,38 @@ TEST_CASE("pressed into spikes an ellipsoid or a capsule is seldom let go") {
   }
 }
 
-TEST_CASE("where a first tick found no contact, the next one found pushes unless it is far behind the finger") {
+TEST_CASE(
+    "where a first tick or a leap found no contact, the next one found pushes unless it is far behind the finger") {
   const Spikes ground(1.2e-3, 3);
   const ScenePtr scene = ground.scene();
-  int begun_facing = 0, pushed = 0, pushed_behind = 0;
-  for (int start = 0; start < 60; ++start) {
-    const Preset preset = sphere_preset(0.020, Method::robust);
-    Stepper stepper(scene);
-    TickState state;
-    const Vec3 at = ground.way(0.1 * start);
-    TickInput input = at_position(0.0, at);
-    TickOutput out = stepper.step(preset, input, state);
-    if (out.status != TickStatus::facing) continue;
-    for (int i = 1; i < 100 && !is_converged(out.status); ++i) {
-      input = at_position(1e-3 * i, at + Vec3(1e-4 * i, 0.0, 0.0));
-      out = stepper.step(preset, input, state);
+  for (const bool leaps : {false, true}) {
+    CAPTURE(leaps);
+    int begun_facing = 0, pushed = 0, pushed_behind = 0;
+    for (int start = 0; start < 60; ++start) {
+      const Preset preset = sphere_preset(0.020, Method::robust);
+      Stepper stepper(scene);
+      TickState state;
+      const Vec3 at = ground.way(0.1 * start);
+      if (leaps) stepper.step(preset, at_position(-1e-3, at + Vec3(0.0, 0.0, 0.030)), state);
+      TickInput input = at_position(0.0, at);
+      TickOutput out = stepper.step(preset, input, state);
+      if (out.status != TickStatus::facing) continue;
+      for (int i = 1; i < 100 && !is_converged(out.status); ++i) {
+        input = at_position(1e-3 * i, at + Vec3(1e-4 * i, 0.0, 0.0));
+        out = stepper.step(preset, input, state);
+      }
+      if (!is_converged(out.status) || !(out.penetration_m > 0.0)) continue;
+      const double behind = -glm::dot(input.finger.position - out.contact, out.normal);
+      const bool far = behind > kLeapOfFinger * preset.solver.switch_hysteresis_m;
+      begun_facing += !far;
+      pushed += !far && out.status != TickStatus::free;
+      pushed_behind += far && out.status != TickStatus::free;
     }
-    if (!is_converged(out.status) || !(out.penetration_m > 0.0)) continue;
-    const double behind = -glm::dot(input.finger.position - out.contact, out.normal);
-    const bool far = behind > kLeapOfFinger * preset.solver.switch_hysteresis_m;
-    begun_facing += !far;
-    pushed += !far && out.status != TickStatus::free;
-    pushed_behind += far && out.status != TickStatus::free;
+    MESSAGE(pushed << " of " << begun_facing << " that began facing push where they find a contact");
+    CHECK(begun_facing > 5);
+    CHECK(pushed == begun_facing);
+    CHECK(pushed_behind == 0);
   }
-  MESSAGE(pushed << " of " << begun_facing << " that began facing push where they find a contact");
-  CHECK(begun_facing > 5);
-  CHECK(pushed == begun_facing);
-  CHECK(pushed_behind == 0);
 }
 
 TEST_CASE("a finger that is pushed through a sheet is not let go for the rim that it has just left") {

@@ -146,4 +146,11 @@ TEST_CASE("a kept state is the same after its bytes, and bytes that no tick can 
   nowhere = state;
   nowhere.clearance.watched[0].triangle = 400'000;
   CHECK_FALSE(state_from(state_bytes(nowhere), *scene));
+  TickState starting = state;
+  starting.start = Start::in_vain;
+  const Result<TickState> started = state_from(state_bytes(starting), *scene);
+  REQUIRE(started);
+  CHECK(started->start == Start::in_vain);
+  starting.start = static_cast<Start>(3);
+  CHECK_FALSE(state_from(state_bytes(starting), *scene));
 }
