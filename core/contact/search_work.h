@@ -15,23 +15,27 @@ struct SearchWork {
   int glance;      ///< at a triangle from the middle of the look-ahead
   int slope;       ///< whether a triangle leads to a known contact
   int evaluation;  ///< of the surface, in a solve
+  /// A search for deeper places that is late does so many times a tick's work: where it has been for so many switch
+  /// hystereses of the finger's way, in proportion where for less. Else a finger that goes on quickly leaves behind
+  /// what was searched again and again. More, or sooner: late ticks; less: a deeper place goes unnoticed for as long as
+  /// the finger moves.
+  double late, most_late;
 
-  static constexpr SearchWork of_round() { return {60, 100, 70, 200, 0, 220}; }
-  static constexpr SearchWork of_core() { return {120, 100, 100, 400, 300, 700}; }
+  static constexpr SearchWork of_round() { return {60, 100, 70, 200, 0, 220, 2.0, 25.0}; }
+  static constexpr SearchWork of_core() { return {120, 100, 100, 400, 300, 700, 5.0, 100.0}; }
 };
 
 /// In one tick. A search that takes more goes on at the next. Larger: late ticks; smaller: more ticks that do not know
 /// yet whether there is a deeper place.
 inline constexpr int kTickWork = 40'000;
 
-/// How many times that where it has been late for kMostLate switch hystereses of the finger's way (2 mm), in proportion
-/// where for less: else a finger that goes on quickly leaves behind what was searched again and again. Larger: late
-/// ticks; smaller: a deeper place goes unnoticed for as long as the finger moves.
-inline constexpr double kLateWork = 5.0, kMostLate = 100.0;
-
-inline int tick_work(double late_m, double most_late_m) {
-  return static_cast<int>(kTickWork * (1.0 + (kLateWork - 1.0) * std::min(1.0, late_m / most_late_m)));
+/// `times` of it where a search is late by `share` of what it may be, or more; in proportion where by less.
+inline int tick_work(double times, double share) {
+  return static_cast<int>(kTickWork * (1.0 + (times - 1.0) * std::min(1.0, share)));
 }
+
+/// The same of a search for a start, without which the finger has no contact; so many switch hystereses.
+inline constexpr double kLateStartWork = 5.0, kMostLateStart = 100.0;
 
 /// In a first tick, or one after a leap, ticks' work: up to the rank that its contact likely has, and of everything.
 /// Larger: late ticks; smaller: a finger that is put deep into something starts at a shallower place more often, and

@@ -91,10 +91,15 @@ bool look_for_touched(ContactContext& context, const SearchStructures& search, c
   const double least = state.unentered || (!is_round(context.finger) && tracked.contact.height_m < 0.0)
                            ? -context.hystereses_m(kLeftTouch)
                            : -std::numeric_limits<double>::infinity();
-  for (const TouchedContact& c : rival.touched.all())
-    if (c.contact.penetration_m >= least && was_entered(step_of(context), c.contact.penetration_m, depth) &&
-        !(has_far_side && is_far_side(c, tracked)))
-      touched.add(c, kMergedPlaces * context.settings.tolerance_m);
+  bool refused = false;
+  for (const TouchedContact& c : rival.touched.all()) {
+    const bool counts = c.contact.penetration_m >= least &&
+                        was_entered(step_of(context), c.contact.penetration_m, depth) &&
+                        !(has_far_side && is_far_side(c, tracked));
+    if (counts) touched.add(c, kMergedPlaces * context.settings.tolerance_m);
+    refused = refused || !counts;
+  }
+  if (refused) forget_surroundings(state.clearance);
   if (touched.count > followed || touched.full()) decided.places_changed = true;
   rival.deeper = rival.deeper && !pushes_with_others(rival.best.contact) &&
                  contact_rank(context.finger, rival.best.contact) < takeover.bound_m;
@@ -104,19 +109,21 @@ bool look_for_touched(ContactContext& context, const SearchStructures& search, c
   return true;
 }
 
-/// Where every touched place pushes: follows them all, looks for more; the deepest is the one to render on the display.
-void watch_touched(ContactContext& context, const SearchStructures& search, TickState& state, DecidedContact& decided,
-                   TouchedContacts& touched) {
+/// Where every touched place pushes: follows them all and `looks` for more; the deepest is the one to render on the
+/// display.
+void watch_touched(ContactContext& context, const SearchStructures& search, bool looks, TickState& state,
+                   DecidedContact& decided, TouchedContacts& touched) {
   if (state.touched.count > 0) {
     const FollowedPlaces followed =
         follow_touched(context, state.touched, &decided.contact.plane, touched, decided.evaluations);
     if (!followed.all)
       state.clearance = Clearance{};  // the surroundings of a place that is followed no more were not looked at
-    decided.places_changed = !followed.all || followed.folded;
+    decided.places_changed = !followed.all || followed.merged || followed.folded;
   }
   const PlaneContact& tracked = decided.contact.contact;
   const Takeover takeover = takeover_from(context, tracked, false, tracked.penetration_m > 0.0 ? kTremor : 1.0);
-  if (look_for_touched(context, search, takeover, state, decided, touched) || state.unentered) return;
+  if (looks && look_for_touched(context, search, takeover, state, decided, touched)) return;
+  if (state.unentered) return;
   if (!is_behind_in_inner_edge(context, decided.contact, touched))
     decide_touched(context, takeover.bound_m, touched, state.plane, decided);
   if (can_lack_walls(context.cache.mesh(), context.finger, context.pose.position, decided.contact.plane, state.touched))
@@ -294,7 +301,8 @@ void find_smooth_contact(ContactContext& context, const SearchStructures& search
   if (touched) {
     touched->count = 0;
     touched->with_walls = false;
-    if (watches && decided.converged()) watch_touched(context, search, state, decided, *touched);
+    const bool looks = decided.event != TickEvent::reseed;
+    if (watches && decided.converged()) watch_touched(context, search, looks, state, decided, *touched);
     if (touched->count > 0 || state.touched.count > 0) state.touched = touched->places();
   } else if (watches && follows) {
     watch_others(context, search, state, decided);

@@ -21,9 +21,12 @@ FollowedPlaces follow_touched(ContactContext& context, const TouchedPlaces& kept
     iterate(quiet, kept.places[i], kTrackBudget, r);
     evaluations += r.evaluations;
     followed.folded = followed.folded || r.met_unstable;
-    const bool merged = tracked && are_one_place(r.plane, *tracked, same);
-    if (!r.converged() || !pushes_with_others(r.contact) || merged ||
-        r.contact.penetration_m < -context.hystereses_m(kLeftTouch))
+    if (r.converged() && tracked && are_one_place(r.plane, *tracked, same)) {
+      followed.merged = true;  // it is followed on as that
+      --own;
+      continue;
+    }
+    if (!r.converged() || !pushes_with_others(r.contact) || r.contact.penetration_m < -context.hystereses_m(kLeftTouch))
       continue;
     now.add({r.plane, r.contact}, same);
   }

@@ -7,7 +7,8 @@
 namespace tangent {
 
 struct FollowedPlaces {
-  bool all = true;      ///< none was left out
+  bool all = true;      ///< none was left out but those that have merged with the tracked one
+  bool merged = false;  ///< one has
   bool folded = false;  ///< one was unstable on the way, so that it may have leapt
 };
 

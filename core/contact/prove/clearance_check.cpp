@@ -24,6 +24,11 @@ void set_free(Clearance& known) {
   known.free_m = (1.0 - 1e-6) * least;
 }
 
+void forget_surroundings(Clearance& known) {
+  known.margin_m = std::min(known.margin_m, 0.0);
+  known.free_m = std::min(known.free_m, 0.0);
+}
+
 // By the triangle inequality, which angles of turning obey, too.
 void recentre(Clearance& known, const FingerPose& pose, double gone) {
   if (known.ahead_centre == known.centre) {

@@ -52,6 +52,9 @@ bool stayed_within(double then_m, double before_m, double now_m, double here_m, 
 /// The least of the margins, as the radius up to which nothing is asked.
 void set_free(Clearance& known);
 
+/// The next tick looks everywhere: a place was found that is not followed, so that its surroundings are not known.
+void forget_surroundings(Clearance& known);
+
 /// The same knowledge seen from `pose`, `gone` away: what is left of the margins there.
 void recentre(Clearance& known, const FingerPose& pose, double gone);
 

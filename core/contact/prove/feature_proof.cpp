@@ -12,7 +12,8 @@ namespace tangent {
 namespace {
 
 constexpr int kCurveHalvings = 3;
-constexpr int kManyFaces = 32;  // around a vertex: to be asked for once, not by each of them
+constexpr int kTestsOfEdge = 4, kFacesOfTest = 2;  // what a close look at an edge costs, and at the faces of a vertex
+constexpr int kManyFaces = 32;                     // around a vertex: to be asked for once, not by each of them
 
 /// An edge of a triangle by its curve's control points, local coordinates.
 struct EdgeEnds {
@@ -220,6 +221,7 @@ double exclude_feature_contacts(PatchCache& cache, const TriangleFeatures& featu
       if (memory) memory->add(edge_key(mesh, t, k));
       continue;
     }
+    if (memory) memory->count(kTestsOfEdge);
     const EdgeEnds ends = edge_ends(mesh, cache.patch(t, form), t, k);
     double safe = std::max(beyond_ends(ends, centre), over_face(ends, centre));
     const EdgeLink other = mesh.across(t, k);
@@ -246,6 +248,7 @@ double exclude_feature_contacts(PatchCache& cache, const TriangleFeatures& featu
     safe = certain_margin(safe, rounding);
     margin = std::min(margin, safe);
     if (!memory) continue;
+    memory->count(faces / kFacesOfTest);
     if (faces > kManyFaces) memory->add_dear(vertex_key(mesh, t, k), safe > 0.0);
     if (faces <= kManyFaces && safe > 0.0) memory->add(vertex_key(mesh, t, k));
   }

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <optional>
+#include <utility>
 
 namespace tangent {
 
@@ -25,6 +26,9 @@ class FeatureMemory {
     dear.tries = excluded ? kMostTries : dear.tries + 1;
   }
   FeatureMemory() { seen_.fill(~std::uint64_t{0}); }
+  /// What was looked at since it was last asked, in tests of a patch (search_work.h).
+  void count(int tests) { tests_ += tests; }
+  int take_tests() { return std::exchange(tests_, 0); }
 
  private:
   static constexpr std::size_t kSlots = 64, kDearSlots = 8;
@@ -37,6 +41,7 @@ class FeatureMemory {
   std::array<Dear, kDearSlots> dear_;
   static std::size_t slot(std::uint64_t key) { return (key ^ key >> 7) % kSlots; }
   std::array<std::uint64_t, kSlots> seen_;
+  int tests_ = 0;
 };
 
 /// Names of an edge, the same from both its triangles, and of a vertex.

@@ -49,15 +49,15 @@ RivalSearch::RivalSearch(ContactContext& context, const SearchStructures& search
       tracked_rank_m_(contact_rank(context.finger, tracked.contact)),
       steady_(settings_.normal_form == NormalForm::bernstein),
       work_(work),
-      most_work_(tick_work(context.late_m, context.hystereses_m(kMostLate))),
       cost_(is_round(context.finger) ? SearchWork::of_round() : SearchWork::of_core()),
+      most_work_(tick_work(cost_.late, context.late_m / context.hystereses_m(cost_.most_late))),
       context_{context.cache, settings_, context.finger,  context.pose, context.origin,
                context.trace, 0,         context.moved_m, context.moved} {
   if (!is_round(context.finger)) {
     context_.core = &core_.emplace(context.finger, context.pose, any_turn_);
-    context_.most_crossings = kMostRivalCrossings;
     steady_ = steady_ && can_ask_steady(*core_, tracked_rank_m_);
   }
+  context_.most_crossings = kMostRivalCrossings;
   remember(tracked.plane, tracked.contact);
   change_ = change_of(tracked.plane, tracked.sample, tracked.contact.height_m);
   tracked_is_even_ = tracked.plane.feature == Feature::face && is_even(tracked.plane.triangle);
@@ -298,7 +298,7 @@ Look RivalSearch::look_at(PartOfTriangle part, double enough_m, const RankBound&
     if (leads_to(i, t, std::min(enough_m, slope_m_))) return own_slope(enough_m);
   if (enough_m > 0.0 && ahead_m_ > 0.0 && part.part == SearchPart::whole && excludes_ahead(t)) return {};
   const PatchExclusion proof = exclude_part(context_, part, up_to, enough_m, &features_);
-  work_ += cost_.test * proof.tests;
+  work_ += cost_.test * (proof.tests + features_.take_tests());
   if (!proof.possible && proof.margin_m > 0.0) return {proof.margin_m, false, true};
   if (!proof.possible) return {kUnresolvedMargin * slope_m_, true, true};
   if (proof.height_m != 0.0 && is_tracked(t, proof)) return own_slope(enough_m);
@@ -321,7 +321,9 @@ bool RivalSearch::excludes_ahead(std::uint32_t t) {
   const RankBound bound{ahead_bound_m_, closing_};
   if (core_) return core_excludes_at_a_glance(context_, *core_ahead_, t, bound, ahead_m_, &features_ahead_);
   ContactContext there{context_.cache, settings_, context_.finger, ahead_pose_, context_.origin};
-  return excludes_at_a_glance(there, t, bound, ahead_m_, &features_ahead_);
+  const bool excluded = excludes_at_a_glance(there, t, bound, ahead_m_, &features_ahead_);
+  work_ += cost_.test * features_ahead_.take_tests();
+  return excluded;
 }
 
 void RivalSearch::look_beside(std::span<const std::uint32_t> triangles, RivalResult& result) {
@@ -349,7 +351,9 @@ void RivalSearch::look_beside(std::span<const std::uint32_t> triangles, RivalRes
     q.work += work_ - before;
     return true;
   };
-  if (search_.hierarchy.visit_from(from, beside, visit)) return;
+  const bool through = search_.hierarchy.visit_from(from, beside, visit);
+  work_ = beside.work;
+  if (through) return;
   clearance.margin_m = 0.0;  // the next tick looks everywhere
   result.searching = true;
 }
@@ -483,8 +487,11 @@ Look RivalSearch::solve_from(const PartOfTriangle& part, const PatchExclusion& p
   }
   remember(r.plane, r.contact);
   const double rank = contact_rank(context_.finger, r.contact);
-  if (touched_ && rank < bound_m_ && pushes_with_others(r.contact))
+  if (touched_ && rank < bound_m_ && pushes_with_others(r.contact)) {
     result.touched.add({r.plane, r.contact}, kMergedPlaces * settings_.tolerance_m);
+    // From now on it is followed, where there is room for it.
+    if (touched_->count + result.touched.count <= kMostTouched) return own_slope(enough_m);
+  }
   // Where others push, too, those are told of above, and what takes over is a place that does not push with them.
   const bool is_told = core_ && touched_ && pushes_with_others(r.contact);
   if (rank < deepest_ && !is_told) {

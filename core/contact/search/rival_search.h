@@ -143,8 +143,9 @@ class RivalSearch {
   double tracked_rank_m_;
   bool tracked_is_even_ = false;
   bool steady_;           ///< contacts are followed over steady ground
-  int work_, most_work_;  ///< of this tick, so far and at most
+  int work_;  ///< of this tick so far
   SearchWork cost_;
+  int most_work_;
   std::optional<FingerCore> core_, core_ahead_;  ///< of a finger that is not round; in the middle of the look-ahead
   ContactContext context_;
   HeightChange change_;    ///< of the tracked contact

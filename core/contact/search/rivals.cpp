@@ -59,8 +59,11 @@ void lead_here(const ContactContext& context, const RivalResult& found, double b
   result.deeper = found.deeper && counts(found.best.plane, result.best);
   for (const TouchedContact& c : found.touched.all()) {
     IterationResult r;
-    if (counts(c.plane, r) && pushes_with_others(r.contact))
+    if (counts(c.plane, r) && pushes_with_others(r.contact)) {
       result.touched.add({r.plane, r.contact}, kMergedPlaces * context.settings.tolerance_m);
+    } else {
+      forget_surroundings(result.clearance);
+    }
   }
 }
 

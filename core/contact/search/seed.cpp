@@ -77,7 +77,7 @@ Clearance begun_at(const FingerPose& pose) {
 bool is_under_way(const ContactContext& context, const Clearance& begun) {
   const bool of_rivals = begun.margin_m >= 0.0;  // one of a tick before that searched for other things
   return begun.under_way && !of_rivals &&
-         gone_m(begun, context.finger, context.pose) <= context.hystereses_m(kMostLate);
+         gone_m(begun, context.finger, context.pose) <= context.hystereses_m(kMostLateStart);
 }
 
 /// A part of one search of everything, from the pose that it began at. What it finds there is led to the present pose.
@@ -96,7 +96,7 @@ bool seed_in_parts(ContactContext& context, const SearchStructures& search, int 
   const auto visit = [&](std::uint32_t t, ContactQuery& q) {
     PartOfTriangle part{t, q.part};
     const PatchExclusion proof = exclude_part(there, part, {rank}, 0.0, &features);
-    q.work += cost.look + cost.test * proof.tests;
+    q.work += cost.look + cost.test * (proof.tests + features.take_tests());
     if (proof.margin_m > 0.0) return true;
     IterationResult then, now;
     iterate(there, start_on(there, part, proof), kSeedBudget, then);
@@ -179,7 +179,7 @@ bool seed_by_hierarchy(ContactContext& context, const SearchStructures& search, 
     if (failed.has(t, q.part)) return true;
     PartOfTriangle part{t, q.part};
     const PatchExclusion proof = exclude_part(context, part, {selection.bound_m(most)}, 0.0, &features);
-    q.work += cost.look + cost.test * proof.tests;
+    q.work += cost.look + cost.test * (proof.tests + features.take_tests());
     if (proof.margin_m > 0.0) return true;
     context.seed = static_cast<std::uint8_t>(std::min(++solves, 255));
     IterationResult r;
@@ -333,7 +333,8 @@ StartWork start_work(const ContactContext& context, const TrackedPlane& kept, bo
   if (!in_motion && context.in_real_time) return {false, kStartWork * kTickWork, kStartWorkOfAll * kTickWork};
   if (!in_motion || !in_parts) return work;
   work.likely = (is_round(context.finger) ? kLost : kLostOfCore) * kTickWork;
-  work.everything = in_vain ? tick_work(context.late_m, context.hystereses_m(kMostLate)) : kLost * kTickWork;
+  work.everything =
+      in_vain ? tick_work(kLateStartWork, context.late_m / context.hystereses_m(kMostLateStart)) : kLost * kTickWork;
   return work;
 }
 
@@ -402,7 +403,8 @@ SeedResult go_on_with_start(ContactContext& context, const SearchStructures& sea
   const double most = tracked && then.converged() ? contact_rank(context.finger, then.contact) : kUnlimited;
   FailedStarts failed;
   SeedSelection selection{EnteredPlaces{}};
-  begun.under_way = !seed_by_hierarchy(there, search, most, tick_work(1.0, 1.0), begun.next, failed, selection);
+  begun.under_way =
+      !seed_by_hierarchy(there, search, most, tick_work(kLateStartWork, 1.0), begun.next, failed, selection);
   SeedResult result;
   result.searching = begun.under_way != 0;
   result.evaluations = then.evaluations + selection.result.evaluations;

@@ -65,17 +65,20 @@ TEST_CASE(
   for (const bool leaps : {false, true}) {
     CAPTURE(leaps);
     int begun_facing = 0, pushed = 0, pushed_behind = 0;
-    for (int start = 0; start < 60; ++start) {
+    for (int start = 0; start < 120; ++start) {
       const Preset preset = sphere_preset(0.020, Method::robust);
       Stepper stepper(scene);
       TickState state;
-      const Vec3 at = ground.way(0.1 * start);
+      const Vec3 at = ground.way(0.05 * start);
       if (leaps) stepper.step(preset, at_position(-1e-3, at + Vec3(0.0, 0.0, 0.030)), state);
       TickInput input = at_position(0.0, at);
       TickOutput out = stepper.step(preset, input, state);
+      int tick = 1;
+      for (; state.start == Start::searching; ++tick)
+        out = stepper.step(preset, input = at_position(1e-3 * tick, at), state);
       if (out.status != TickStatus::facing) continue;
       for (int i = 1; i < 100 && !is_converged(out.status); ++i) {
-        input = at_position(1e-3 * i, at + Vec3(1e-4 * i, 0.0, 0.0));
+        input = at_position(1e-3 * (tick + i), at + Vec3(1e-4 * i, 0.0, 0.0));
         out = stepper.step(preset, input, state);
       }
       if (!is_converged(out.status) || !(out.penetration_m > 0.0)) continue;

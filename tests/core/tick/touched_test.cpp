@@ -115,6 +115,22 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a second wall that is found is followed from then on, and nothing is looked for again for that") {
+  const ScenePtr scene = walls(2);
+  const Preset preset = all_of(0.005);
+  Stepper stepper(scene);
+  TickState state;
+  int found = 0;
+  for (int i = 0; i < 200; ++i) {
+    const std::uint32_t before = state.touched.count;
+    stepper.step(preset, at_position(1e-3 * i, {0.0060 - 1e-5 * i, 0.0049, 0.0}), state);
+    if (state.touched.count <= before) continue;
+    ++found;
+    CHECK(state.clearance.margin_m > 0.0);
+  }
+  CHECK(found == 1);
+}
+
 TEST_CASE("round the corner and back the force of all places does no work, that of the deepest does where it flips") {
   const FingerPose middle{Vec3(0.0041, 0.0042, 0.0), Quat(1, 0, 0, 0)};
   const auto loop = circle_of_poses(middle, Vec3(0, 0, 1), 5e-4, 4096);

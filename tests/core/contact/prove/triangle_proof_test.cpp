@@ -2,6 +2,7 @@
 #include "core/contact/prove/triangle_proof.h"
 
 #include "core/contact/follow/step_rule.h"
+#include "core/contact/prove/feature_proof.h"
 #include "core/mesh/vertex_ring.h"
 #include "tests/core/fingers.h"
 #include "tests/core/scenes.h"
@@ -116,4 +117,28 @@ TEST_CASE("a contact exactly on a corner or an edge is not excluded by all trian
     CHECK(all.contacts > rounds(5000));
     CHECK(all.excluded == 0);
   }
+}
+
+TEST_CASE("what a look at creases costs is counted, seldom twice of those that a search has excluded") {
+  const ScenePtr scene = spot_scene(10.0);
+  const ContactMesh& mesh = scene->mesh();
+  PatchCache cache(mesh);
+  int first = 0, again = 0, left = 0;
+  for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+    if (!mesh.usable(t) || mesh.interior(t)) continue;
+    FeatureMemory memory;
+    const Vec3 middle = (mesh.position(t, 0) + mesh.position(t, 1) + mesh.position(t, 2)) / 3.0;
+    const auto ask = [&] {
+      return exclude_feature_contacts(cache, {t}, NormalForm::bernstein, middle + 0.02 * mesh.normal(t, 0),
+                                      {0.025, 1.0}, 1e-3, &memory);
+    };
+    if (!(ask() > 0.0)) continue;
+    first += memory.take_tests();
+    left += memory.take_tests();
+    ask();
+    again += memory.take_tests();
+  }
+  CHECK(first > 1000);
+  CHECK(left == 0);
+  CHECK(again * 4 < first);
 }
