@@ -77,10 +77,11 @@ inline constexpr int kSeedBudget = 16;
 inline constexpr int kMostCrossings = 256;
 inline constexpr int kMostTrackedCrossings = 64;
 
-/// The same of searches for rivals, and of that for a start of a finger that is not round once one is touched: along the
-/// flank of a long finger steps run from end to end, and one that far from its triangle says nothing of it. More: the
-/// 99th percentile of a capsule of 8 mm with half a length of 10 on the bunny is 1.5 ms (64) instead of 0.53, and on
-/// rough ground a solve of 14 planes under a ball takes up to 78 us; fewer: rivals across fine triangles are asked again.
+/// The same of searches for rivals, and of that for a start of a finger that is not round once one is touched: along
+/// the flank of a long finger steps run from end to end, and one that far from its triangle says nothing of it. More:
+/// the 99th percentile of a capsule of 8 mm with half a length of 10 on the bunny is 1.5 ms (64) instead of 0.53, and
+/// on rough ground a solve of 14 planes under a ball takes up to 78 us; fewer: rivals across fine triangles are asked
+/// again.
 inline constexpr int kMostRivalCrossings = 16;
 
 /// New planes that a suspected rival costs before its height tells whether it is worth more, and those that it may cost

@@ -38,15 +38,14 @@ class StepCache {
  public:
   explicit StepCache(const ContactMesh& mesh) : patches(mesh) {}
 
-  /// Whether `smooth` still holds the sample of this kept plane: the same place on a face or an edge, bit for bit.
-  /// Where a run did not converge its last sample may be of the place before.
+  /// Whether `smooth` still holds the sample of this kept plane: the same place on a face, bit for bit. On an edge the
+  /// sample may be the one of the same place seen from its other side, or by another parameter; where a run did not
+  /// converge it may be of the place before.
   bool holds(const TrackedPlane& kept, NormalForm kept_form) const {
-    const TrackedPlane& mine = smooth.contact.plane;
-    if (kept.feature != mine.feature || kept.triangle != mine.triangle || kept.u != mine.u || kept.v != mine.v ||
-        kept_form != form || !smooth.contact.converged())
-      return false;
-    return kept.feature == Feature::face || (kept.feature == Feature::edge && kept.side == mine.side &&
-                                             kept.turn == mine.turn && kept.normal == mine.normal);
+    const IterationResult& mine = smooth.contact;
+    return kept.feature == Feature::face && mine.plane.feature == Feature::face &&
+           kept.triangle == mine.plane.triangle && kept.u == mine.plane.u && kept.v == mine.plane.v &&
+           kept_form == form && mine.converged();
   }
 
   PatchCache patches;
