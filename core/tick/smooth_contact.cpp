@@ -274,7 +274,7 @@ bool follow_or_start(ContactContext& context, const SearchStructures& search, bo
     if (touched && go_on_with_touched(context, state, decided, *touched)) {
       state.clearance = Clearance{};
       state.unentered = 0;
-      decided.searching = leapt;  // not yet where it was put
+      decided.searching = leapt && robust;  // not yet where it was put
     } else {
       const EnteredPlaces entered = first ? EnteredPlaces{} : entered_places(context, state, decided.evaluations);
       start_anew(context, search, first || leapt, entered, state, decided);

@@ -402,7 +402,8 @@ SeedResult go_on_with_start(ContactContext& context, const SearchStructures& sea
   if (tracked) lead(there, tracked->plane, then);
   const double most = tracked && then.converged() ? contact_rank(context.finger, then.contact) : kUnlimited;
   FailedStarts failed;
-  SeedSelection selection{EnteredPlaces{}};
+  const EnteredPlaces all;
+  SeedSelection selection{all};
   begun.under_way =
       !seed_by_hierarchy(there, search, most, tick_work(kLateStartWork, 1.0), begun.next, failed, selection);
   SeedResult result;

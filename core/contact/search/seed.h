@@ -31,7 +31,8 @@ SeedResult seed_contact(ContactContext& context, const SearchStructures& search,
                         bool in_vain = false, Clearance* parts = nullptr, const EnteredPlaces& entered = {});
 
 /// A first search that broke off goes on, from the pose that it began at, with contacts deeper than the `tracked` one
-/// there (null: there is none yet), and leads the deepest to the present pose. About a finger that has gone far since it begins anew.
+/// there (null: there is none yet), and leads the deepest to the present pose. About a finger that has gone far since
+/// it begins anew.
 SeedResult go_on_with_start(ContactContext& context, const SearchStructures& search, const IterationResult* tracked,
                             Clearance& begun);
 

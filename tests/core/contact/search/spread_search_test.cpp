@@ -162,7 +162,8 @@ TEST_CASE("a finger at the middle of a ball, where every triangle holds a contac
     const TickOutput out = stepper.step(preset, at_position(1e-3 * i, 1e-5 * random.direction()), state);
     if (i > 0 && out.event == TickEvent::none) most = std::max(most, out.iterations);
   }
-  const int allowed = static_cast<int>(SearchWork::of_round().late * kTickWork) / SearchWork::of_round().evaluation + 64;
+  constexpr SearchWork kWork = SearchWork::of_round();
+  const int allowed = static_cast<int>(kWork.late * kTickWork) / kWork.evaluation + 64;
   CHECK(most <= allowed);
 }
 
