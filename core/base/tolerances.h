@@ -137,7 +137,7 @@ inline constexpr double kSoonTouched = 100.0;
 /// Ticks, at the finger's present speed, that the search for deeper places looks ahead, and where the last ones were
 /// dear (Clearance::ahead). More: fewer, larger searches. On the bunny under a 20 mm finger the mean is all but the
 /// same from 3 to 8, the 99.9th percentile a third higher with 8.
-inline constexpr double kWatchTicks = 8.0, kDearTicks = 2.5;
+inline constexpr double kWatchTicks = 8.0, kDearTicks = 4.0;
 
 /// The look-ahead is a ball whose middle lies this part of it ahead of the finger, in the direction in which it moves,
 /// at most so many ticks. Larger: a finger that turns round has soon left it; smaller: the ball for the same way is

@@ -28,7 +28,11 @@ FollowedPlaces follow_touched(ContactContext& context, const TouchedPlaces& kept
     }
     if (!r.converged() || !pushes_with_others(r.contact) || r.contact.penetration_m < -context.hystereses_m(kLeftTouch))
       continue;
+    const std::size_t before = now.count;
     now.add({r.plane, r.contact}, same);
+    if (now.count > before) continue;
+    followed.merged = true;
+    --own;
   }
   followed.all = now.count == own;
   return followed;

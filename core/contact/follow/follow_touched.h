@@ -7,8 +7,8 @@
 namespace tangent {
 
 struct FollowedPlaces {
-  bool all = true;      ///< none was left out but those that have merged with the tracked one
-  bool merged = false;  ///< one has
+  bool all = true;      ///< none was left out but those that have merged
+  bool merged = false;  ///< one has, with the tracked one or another
   bool folded = false;  ///< one was unstable on the way, so that it may have leapt
 };
 

@@ -19,6 +19,7 @@
 // Immutable, no allocation in a query, any number of threads.
 #pragma once
 
+#include "core/base/lanes.h"
 #include "core/base/tolerances.h"
 #include "core/contact/search_work.h"
 #include "core/finger/finger_core.h"
@@ -109,73 +110,119 @@ class ContactHierarchy {
   template <class Visit>
   bool visit_on(ContactQuery& query, Visit& visit, std::uint32_t& from) const;
   /// Whether it is certain that none of the triangles can hold such a contact.
-  bool rules_out(const ContactQuery& query) const { return nodes_.empty() || reach2(nodes_[0], query) < 0.0; }
+  bool rules_out(const ContactQuery& query) const { return nodes_.empty() || !can_hold(all_, true, query); }
 
   class Outline;
   /// Precondition: it is over a triangle at least.
   Outline outline() const;
 
   std::size_t memory_bytes() const {
-    return nodes_.size() * sizeof(Node) + order_.size() * sizeof(std::uint32_t) + rims_.size() * sizeof(Rim);
+    return nodes_.size() * sizeof(Node) + (order_.size() + rim_of_.size()) * sizeof(std::uint32_t) +
+           rims_.size() * sizeof(Rim);
   }
 
  private:
   friend class ContactHierarchyBuilder;
   static constexpr std::uint32_t kLeaf = 0x80000000u;
-  static constexpr int kMaxDepth = 64;
+  static constexpr std::uint32_t kFour = 4;
+  static constexpr double kFarthest2 = 1e30;  ///< m^2: parts that are not there are further off
 
-  /// Preorder: the first child follows its parent.
-  struct Node {
+  /// What a search asks of a part of the surface.
+  struct Bounds {
     std::array<float, 3> min, max;              ///< of control points, rounded outwards
     std::array<float, 3> axis;                  ///< of the cone of normals, unit
     float cos_half;                             ///< of the cone's half angle, rounded down; -1: every direction
     float least_curvature, greatest_curvature;  ///< of its patches, 1/m, rounded outwards
-    std::uint32_t link;                         ///< second child, or kLeaf | its entry in order_
-    std::uint32_t rim;                          ///< 1 + its entry in rims_; 0: none
+    float radius_m;                             ///< of a ball about the box's middle that holds them, rounded up
+
+    Vec3 low() const { return {min[0], min[1], min[2]}; }
+    Vec3 high() const { return {max[0], max[1], max[2]}; }
+    Vec3 middle() const { return 0.5 * (low() + high()); }
+    bool any_normal() const { return cos_half <= -1.0f; }
+  };
+  /// Up to four parts side by side, in preorder: what is below the first follows their node.
+  struct Node {
+    std::array<Four, 3> min, max, axis;  ///< as of Bounds
+    Four cos_half, sin_half;             ///< that sine rounded up
+    Four least_curvature, greatest_curvature, radius_m;
+    std::array<std::uint32_t, kFour> link;  ///< a node, kLeaf | an entry of order_, or kNone: there are no more
+
+    bool is_leaf(std::uint32_t lane) const { return (link[lane] & kLeaf) != 0; }
+    Bounds at(std::uint32_t lane) const {
+      const auto three = [&](const std::array<Four, 3>& of) {
+        return std::array<float, 3>{of[0][lane], of[1][lane], of[2][lane]};
+      };
+      return {three(min),    three(max), three(axis), cos_half[lane], least_curvature[lane], greatest_curvature[lane],
+              radius_m[lane]};
+    }
   };
   /// Normals across a direction.
   struct Rim {
     std::array<float, 3> along;  ///< unit
     float most;                  ///< |normal . along| of its normals, rounded up
   };
+  /// A query of a round finger for four parts at once, in floats. All that rounding may change is made up for by asking
+  /// for more.
+  struct FourQuery {
+    FourQuery(const ContactQuery& query, const Bounds& all);
+    /// A visitor may have shrunk its bounds.
+    void follow(const ContactQuery& query, const Bounds& all) {
+      if (query.margin_m != from_margin_m || query.nearest_m != from_nearest_m || query.inside_m != from_inside_m)
+        *this = FourQuery(query, all);
+    }
+    double from_margin_m, from_nearest_m, from_inside_m;
+    std::array<Four, 3> centre, ahead;
+    float margin_m, nearest2, inside2;        ///< inside2 below zero: none
+    float farthest2;                          ///< of the two
+    float least_steady, nearest_m, inside_m;  ///< what curvature times height has to be above, and below less that
+    float room_m;                             ///< by which coordinates and distances along an axis may be wrong
+  };
+  /// Of four parts: the boxes' squared distances, and whether they can hold a contact, -1 where they can, else 0.
+  struct Reach {
+    Four box2;
+    FourMask reached;
+  };
 
-  /// Squared distance of the box, or -1 where the node can't hold a contact. `room_m`: by which the ball about its
-  /// points is larger than the one about the box.
-  static double reach2(const Node& node, const ContactQuery& query, double room_m = 0.0);
-  static NormalCone normals_of(const Node& node);
-  static bool stays(const Node& node, const ContactQuery& query) {
+  static NormalCone normals_of(const Bounds& node);
+  static bool stays(const Bounds& node, const ContactQuery& query) {
     return query.core ? is_steady_for_core(query, node.least_curvature, normals_of(node))
                       : is_steady(query, node.least_curvature, node.greatest_curvature);
   }
+  static Reach reach_of_round(const Node& node, const FourQuery& query);
+  /// Of any query, of one part after the other.
+  Reach reach_of_any(std::uint32_t index, const ContactQuery& query) const;
+  Reach reach(std::uint32_t index, const ContactQuery& query, const FourQuery& four) const {
+    const bool round = !query.core && !query.steady_only && query.tilt_rad <= 0.0;
+    return round && in_floats_ ? reach_of_round(nodes_[index], four) : reach_of_any(index, query);
+  }
+  /// Whether a part can hold a contact. `is_inner`: it is about several triangles, or that is not known.
+  static bool can_hold(const Bounds& node, bool is_inner, const ContactQuery& query);
   /// Whether every contact that the query asks for has a normal that the node doesn't have, leaning too far into
   /// `along`.
-  static bool misses(const Rim& rim, const Node& node, const ContactQuery& query);
-  double reach2(std::uint32_t index, const ContactQuery& query) const {
-    const Node& node = nodes_[index];
-    const double reach = reach2(node, query);
-    return reach >= 0.0 && node.rim != 0 && misses(rims_[node.rim - 1], node, query) ? -1.0 : reach;
-  }
+  static bool misses(const Rim& rim, const Bounds& node, const ContactQuery& query);
   /// Whether a finger that is not round can touch the node, whose box is that far from its centre, squared.
-  static bool touchable(const Node& node, const ContactQuery& query, double box2);
+  static bool touchable(const Bounds& node, bool is_inner, const ContactQuery& query, double box2);
 
+  /// Part `place % 4` of node `place / 4`.
   struct Entry {
-    std::uint32_t node;
-    double reach2;
+    std::uint32_t place;
+    float box2;
   };
   struct Stack {
-    std::array<Entry, kMaxDepth> entries;
+    std::array<Entry, 64> entries;  ///< three of each level of a tree of 2^29 triangles, and one
     int size = 0;
-    void push(const Entry& entry) {
-      if (entry.reach2 >= 0.0) entries[size++] = entry;
-    }
   };
-  double box_distance2(std::uint32_t index, const Vec3& point) const;
-  /// What is left to visit from a node on.
-  void push_from(std::uint32_t from, const ContactQuery& query, Stack& stack) const;
+  /// What is to be visited of a node, the nearest part on top; all of it, or what comes after the part in lane `after`.
+  static void push(std::uint32_t index, const Reach& reach, Stack& stack, std::uint32_t after = kNone);
+  /// What is left to visit from a part on. False: it is none of this tree.
+  bool push_from(std::uint32_t place, const ContactQuery& query, const FourQuery& four, Stack& stack) const;
 
+  Bounds all_{};            ///< of all triangles
+  bool in_floats_ = false;  ///< floats hold the squares of their coordinates, and there are no rims
   std::vector<Node> nodes_;
   static constexpr std::uint32_t kPartShift = 29, kTriangleBits = (1u << kPartShift) - 1;
-  std::vector<std::uint32_t> order_;  ///< part << kPartShift | triangle, of each leaf
+  std::vector<std::uint32_t> order_;   ///< part << kPartShift | triangle, of each leaf
+  std::vector<std::uint32_t> rim_of_;  ///< per part of a node 1 + its entry in rims_, 0: none; empty where none has one
   std::vector<Rim> rims_;
 };
 
@@ -188,87 +235,93 @@ class ContactHierarchy::Outline {
   /// Not for fingers with a core.
   static Outline about(const Outline& a, const Outline& b);
   /// Whether it is certain that none of the triangles can hold such a contact.
-  bool rules_out(const ContactQuery& query) const { return reach2(root_, query, room_m_) < 0.0; }
+  bool rules_out(const ContactQuery& query) const { return !can_hold(all_, true, query); }
 
  private:
   friend class ContactHierarchy;
-  explicit Outline(const Node& root) : root_(root) {}
-  Vec3 centre() const;
-  double radius_m() const;  ///< of the ball about the centre that holds the balls about all boxes in it
+  explicit Outline(const Bounds& all) : all_(all) {}
 
-  Node root_{};
-  float room_m_ = 0.0f;  ///< by which that ball is larger than the one about the box
+  Bounds all_{};  ///< its ball holds those of all hierarchies
 };
 
-inline ContactHierarchy::Outline ContactHierarchy::outline() const { return Outline(nodes_[0]); }
+inline ContactHierarchy::Outline ContactHierarchy::outline() const { return Outline(all_); }
 
-inline double ContactHierarchy::reach2(const Node& node, const ContactQuery& q, double room_m) {
-  const Vec3 low(node.min[0], node.min[1], node.min[2]), high(node.max[0], node.max[1], node.max[2]);
-  if (q.steady_only) {
-    const Vec3 beside = glm::max(low - q.region.max, q.region.min - high);
-    if (std::max({beside.x, beside.y, beside.z}) > 0.0) return -1.0;
-    if ((node.link & kLeaf) && !stays(node, q)) return -1.0;
+// Seen from c the points lie in a ball about the box's middle, in a cone as wide as the sine radius/|d| tells; c may
+// move by the margin. Asked is whether the angle of d and +-axis is at most that and the cone's half: by cosines times
+// |d|, and those by their squares. Without branches, since which of these tells is as good as random.
+inline ContactHierarchy::Reach ContactHierarchy::reach_of_round(const Node& node, const FourQuery& q) {
+  constexpr float kRounding = 1e-6f, kSquared = 4e-6f;  // ratios, far above what floats are rounded by
+  const Four zero{};
+  const FourMask steady =
+      (q.nearest_m * node.least_curvature > q.least_steady) & (q.inside_m * node.greatest_curvature < -q.least_steady);
+  Four box2 = zero, d2 = zero, along = zero;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Four gap = max(max(node.min[k] - q.centre[k], q.centre[k] - node.max[k]) - q.room_m, zero);
+    box2 += gap * gap;
+    const Four d = q.centre[k] - 0.5f * (node.min[k] + node.max[k]) + (steady ? zero : q.ahead[k]);
+    d2 += d * d;
+    along += d * node.axis[k];
   }
-  const Vec3 gap = glm::max(glm::max(low - q.centre, q.centre - high), Vec3(0.0));
-  const double box2 = glm::dot(gap, gap);
-  const double farthest = std::max(q.nearest_m, q.inside_m);
-  if (box2 > farthest * farthest) return -1.0;
-  if (q.core) return touchable(node, q, box2) ? box2 : -1.0;
-  if (node.cos_half <= -1.0f) return box2;
+  box2 *= 1.0f - kRounding;
+  const Four radius = (1.0f + kRounding) * (node.radius_m + (steady ? zero : zero + q.margin_m)) + 2.0f * q.room_m;
+  const Four radius2 = radius * radius, cos2 = node.cos_half * node.cos_half;
+  const Four sight2 = (1.0f - kRounding) * d2 - radius2, most_sight2 = d2 - (1.0f - 3.0f * kSquared) * radius2;
+  const Four room = node.sin_half * radius + (q.room_m + kRounding * radius);
+  const Four least2 = (1.0f - kSquared) * cos2 * sight2, most2 = (1.0f + kSquared) * cos2 * most_sight2;
+  const FourMask is_narrow = node.cos_half >= zero;
+  const auto faces = [&](const Four& x) {
+    const Four y = x + room, y2 = y * y;
+    const FourMask is_over = y >= zero;
+    return (is_narrow & is_over & (y2 >= least2)) | (~is_narrow & (is_over | (y2 <= most2)));
+  };
+  // A cone of every normal, a finger in the ball, over half a turn.
+  const Four sin2 = (1.0f - kSquared) * node.sin_half * node.sin_half;
+  const FourMask any = (node.cos_half <= -1.0f) | (sight2 <= zero) | (~is_narrow & (sin2 * sight2 < cos2 * radius2));
+  const FourMask outside = box2 <= q.nearest2, inside = box2 <= q.inside2;
+  return {box2, (outside & (any | faces(along))) | (inside & (any | faces(-along)))};
+}
 
-  // Seen from c the node's points lie within `spread` of the direction to its middle; c may move by the margin.
-  Vec3 d = q.centre - 0.5 * (low + high);
-  double radius = 0.5 * std::sqrt(glm::dot(high - low, high - low)) + room_m;
-  if (!q.steady_only && !is_steady(q, node.least_curvature, node.greatest_curvature)) {
-    d += q.ahead;
-    radius += q.margin_m;
+inline void ContactHierarchy::push(std::uint32_t index, const Reach& reach, Stack& stack, std::uint32_t after) {
+  const int first = stack.size;
+  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+    if (!reach.reached[lane]) continue;
+    const float box2 = reach.box2[lane];
+    if (after != kNone && (lane > after ? box2 < reach.box2[after] : box2 <= reach.box2[after])) continue;
+    int at = stack.size++;
+    for (; at > first && stack.entries[at - 1].box2 <= box2; --at) stack.entries[at] = stack.entries[at - 1];
+    stack.entries[at] = {kFour * index + lane, box2};
   }
-  const double d2 = glm::dot(d, d);
-  if (d2 <= radius * radius) return box2;
-  // Compare the angle of d from +-axis with half + spread + tilt, by cosines times the distance.
-  const double to_sight = std::sqrt(d2 - radius * radius);  // of a line from c that grazes the ball
-  const double cos_half = node.cos_half, sin_half = std::sqrt(std::max(0.0, 1.0 - cos_half * cos_half));
-  const double along = d.x * node.axis[0] + d.y * node.axis[1] + d.z * node.axis[2];
-  double limit = cos_half * to_sight - sin_half * radius;
-  const double sideways = sin_half * to_sight + cos_half * radius;
-  if (sideways < 0.0) return box2;  // over half a turn: every direction
-  if (q.tilt_rad > 0.0) {
-    const double c = std::cos(q.tilt_rad), s = std::sin(q.tilt_rad);
-    if (sideways * c + limit * s < 0.0) return box2;
-    limit = limit * c - sideways * s;
-  }
-  const bool outside = along >= limit && box2 <= q.nearest_m * q.nearest_m;
-  const bool inside = q.inside_m >= 0.0 && -along >= limit && box2 <= q.inside_m * q.inside_m;
-  return outside || inside ? box2 : -1.0;
 }
 
 template <class Visit>
 bool ContactHierarchy::visit_on(ContactQuery& query, Visit& visit, std::uint32_t& from) const {
+  if (nodes_.empty()) return true;
   Stack stack;
-  if (from != 0 && from < nodes_.size()) {
-    push_from(from, query, stack);
-  } else if (!nodes_.empty()) {
-    stack.push({0, 0.0});
+  FourQuery four(query, all_);
+  const auto push_below = [&](std::uint32_t index) {
+    query.work += query.core ? SearchWork::of_core().node : SearchWork::of_round().node;
+    push(index, reach(index, query, four), stack);
+  };
+  if (from == 0 || !push_from(from - 1, query, four, stack)) {
+    from = 0;
+    if (query.is_spent()) return false;
+    push_below(0);
   }
   while (stack.size > 0) {
     const Entry entry = stack.entries[--stack.size];
-    const double farthest = std::max(query.nearest_m, query.inside_m);
-    if (entry.reach2 > farthest * farthest) continue;
-    if (query.is_spent()) return from = entry.node, false;
-    const Node& node = nodes_[entry.node];
-    if (node.link & kLeaf) {
-      const std::uint32_t entry_of_leaf = order_[node.link & ~kLeaf];
-      query.here_m = query.steady_only || stays(node, query) ? 0.0 : query.margin_m;
-      query.part = static_cast<SearchPart>(entry_of_leaf >> kPartShift);
-      if (!visit(entry_of_leaf & kTriangleBits, query)) return false;
+    if (entry.box2 > four.farthest2) continue;
+    if (query.is_spent()) return from = entry.place + 1, false;
+    const Node& node = nodes_[entry.place / kFour];
+    const std::uint32_t lane = entry.place % kFour, link = node.link[lane];
+    if (!(link & kLeaf)) {
+      push_below(link);
       continue;
     }
-    query.work += query.core ? SearchWork::of_core().node : SearchWork::of_round().node;
-    const std::uint32_t a = entry.node + 1, b = node.link;
-    const double reach_a = reach2(a, query), reach_b = reach2(b, query);
-    const bool a_first = reach_a <= reach_b;
-    stack.push(a_first ? Entry{b, reach_b} : Entry{a, reach_a});
-    stack.push(a_first ? Entry{a, reach_a} : Entry{b, reach_b});
+    const std::uint32_t entry_of_leaf = order_[link & ~kLeaf];
+    query.here_m = query.steady_only || stays(node.at(lane), query) ? 0.0 : query.margin_m;
+    query.part = static_cast<SearchPart>(entry_of_leaf >> kPartShift);
+    if (!visit(entry_of_leaf & kTriangleBits, query)) return false;
+    four.follow(query, all_);
   }
   return true;
 }

@@ -1,5 +1,6 @@
 #include "core/contact/prove/face_proof.h"
 
+#include "core/base/lanes.h"
 #include "core/base/tolerances.h"
 #include "core/contact/prove/certain_margin.h"
 
@@ -145,7 +146,6 @@ struct Part {
 
   /// Least of the coefficients across a direction, two by two.
   double least_across(const Vec2& side) const {
-    using Two = double __attribute__((vector_size(16)));
     const Two y = {side.y, side.y}, x = {side.x, side.x};
     Two least = {kUnbounded, kUnbounded};
     const auto include = [&](const Vec2& a, const Vec2& b) {

@@ -294,9 +294,9 @@ Look RivalSearch::look_at(PartOfTriangle part, double enough_m, const RankBound&
   }
   ++dear_looks_;
   work_ += cost_.look;
+  if (enough_m > 0.0 && ahead_m_ > 0.0 && part.part == SearchPart::whole && excludes_ahead(t)) return {};
   for (std::size_t i = 0; i < known_count_ && !is_side(part.part) && part.part != SearchPart::region; ++i)
     if (leads_to(i, t, std::min(enough_m, slope_m_))) return own_slope(enough_m);
-  if (enough_m > 0.0 && ahead_m_ > 0.0 && part.part == SearchPart::whole && excludes_ahead(t)) return {};
   const PatchExclusion proof = exclude_part(context_, part, up_to, enough_m, &features_);
   work_ += cost_.test * (proof.tests + features_.take_tests());
   if (!proof.possible && proof.margin_m > 0.0) return {proof.margin_m, false, true};

@@ -8,7 +8,9 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <limits>
 #include <set>
+#include <vector>
 
 using namespace tangent;
 using namespace tangent::test;
@@ -291,4 +293,70 @@ TEST_CASE("a search of a rim of many edges visits those that the finger can touc
     MESSAGE((looked_at / static_cast<std::size_t>(centres)) << " of " << rim.size() << " edges are looked at");
     CHECK(looked_at < static_cast<std::size_t>((crease_rad > 0.1 ? 8 : 40) * centres));
   }
+}
+
+namespace {
+
+/// Four parts at once are asked in floats, but for fingers that lean: by doubles, with a tilt too small to matter.
+ContactQuery in_doubles(ContactQuery query) {
+  query.tilt_rad = 1e-300;
+  return query;
+}
+
+ContactQuery random_query(Random& random, double size_m) {
+  ContactQuery query;
+  query.centre = random.in_cube(0.6 * size_m);
+  const bool unlimited = random.below(10) == 0;
+  query.nearest_m = unlimited ? std::numeric_limits<double>::max() : random.in(0.05, 0.8) * size_m;
+  query.inside_m = random.below(2) ? -1.0 : unlimited ? query.nearest_m : random.in(0.0, 0.5) * size_m;
+  query.margin_m = random.below(2) ? 0.0 : random.in(0.0, 0.02) * size_m;
+  if (query.margin_m > 0.0 && random.below(2)) query.ahead = 0.5 * query.margin_m * random.direction();
+  query.steady_ground = random.below(2) != 0;
+  return query;
+}
+
+}  // namespace
+
+TEST_CASE("floats rule out nothing that doubles don't, and all but the same, however large or small the mesh is") {
+  Random random(41);
+  std::size_t missed = 0, more = 0, all = 0, whole = 0;
+  for (const double size_m : {1e-12, 1e-8, 0.04, 1e3, 1e12, 1e25})
+    for (const PolygonMesh& source :
+         {make_icosphere(size_m, 4), make_torus(size_m, 0.4 * size_m, 40, 20), make_icosphere(size_m, 0)}) {
+      const ScenePtr scene = scene_of(source);
+      const LateHierarchy tree(scene->mesh(), nullptr);
+      for (int i = 0; i < rounds(60); ++i) {
+        const ContactQuery query = random_query(random, size_m);
+        const std::set<std::uint32_t> floats = visited(tree, query), doubles = visited(tree, in_doubles(query));
+        for (const std::uint32_t t : doubles) missed += !floats.contains(t);
+        more += floats.size();
+        all += doubles.size();
+        whole += scene->mesh().triangle_count();
+      }
+    }
+  MESSAGE(more << " visited in floats, " << all << " in doubles, of " << whole);
+  CHECK(missed == 0);
+  CHECK(all > whole / 1000);
+  CHECK(all < whole / 2);
+  CHECK(static_cast<double>(more) < 1.001 * static_cast<double>(all) + 10.0);
+}
+
+TEST_CASE("a search that breaks off after every step visits the same triangles in the same order") {
+  Random random(42);
+  const ScenePtr scene = scene_of(make_torus(0.040, 0.015, 40, 20));
+  const LateHierarchy tree(scene->mesh(), nullptr);
+  std::size_t parts = 0;
+  for (int i = 0; i < rounds(60); ++i) {
+    ContactQuery query = random_query(random, 0.04);
+    std::vector<std::uint32_t> at_once, in_parts;
+    tree.visit(query, [&](std::uint32_t t, ContactQuery&) { return at_once.push_back(t), true; });
+    VisitPlace from;
+    const auto visit = [&](std::uint32_t t, ContactQuery& q) { return ++q.work, in_parts.push_back(t), true; };
+    for (bool through = false; !through; ++parts) {
+      query.most_work = query.work + 1;
+      through = tree.visit_from(from, query, visit);
+    }
+    CHECK(at_once == in_parts);
+  }
+  CHECK(parts > static_cast<std::size_t>(rounds(60)) * 10);
 }
