@@ -31,32 +31,91 @@ ContactHierarchy::Outline ContactHierarchy::Outline::about(const Outline& a, con
 
 ContactHierarchy::FourQuery::FourQuery(const ContactQuery& query, const Bounds& all)
     : from_margin_m(query.margin_m), from_nearest_m(query.nearest_m), from_inside_m(query.inside_m) {
-  constexpr double kRounding = 1e-6;
+  constexpr double kRounding = kFloatRounding;
   const auto square = [](double far) {
     const double most2 = (1.0 + kRounding) * far * far;
     return static_cast<float>(far < 0.0 ? -1.0 : std::min(most2, kFarthest2));
   };
   // Nothing lies further off than all of it does.
+  const bool is_led = !query.steady_only && (!query.core || query.core_ahead);
   double size = glm::distance(query.centre, all.middle()) + all.radius_m;
   for (int k = 0; k < 3; ++k) {
-    centre[static_cast<std::size_t>(k)] = Four{} + static_cast<float>(query.centre[k]);
-    ahead[static_cast<std::size_t>(k)] = Four{} + static_cast<float>(query.ahead[k]);
+    const auto at = static_cast<std::size_t>(k);
+    const auto all_four = [](double x) { return Four{} + static_cast<float>(x); };
+    centre[at] = all_four(query.centre[k]);
+    ahead[at] = all_four(is_led ? query.ahead[k] : 0.0);
     size += std::abs(query.centre[k]) + std::abs(query.ahead[k]);
+    if (!query.steady_only) continue;
+    low[at] = all_four(query.region.min[k]);
+    high[at] = all_four(query.region.max[k]);
+    size += std::abs(query.region.min[k]) + std::abs(query.region.max[k]);
   }
-  margin_m = static_cast<float>(query.margin_m);
+  margin_m = static_cast<float>(query.steady_only ? 0.0 : query.margin_m);
   nearest2 = square(query.nearest_m);
   inside2 = square(query.inside_m);
   farthest2 = std::max(nearest2, inside2);
   // Where steady ground is not asked for by itself none is.
-  constexpr double kCurvatureRounding = 1e-5;
-  least_steady = query.steady_ground ? static_cast<float>(kSteadyRoom - 1.0 + kCurvatureRounding)
-                                     : std::numeric_limits<float>::infinity();
+  const bool can_be_steady = query.steady_ground && !query.steady_only;
+  least_steady = can_be_steady ? static_cast<float>(kSteadyRoom - 1.0) + 0.5f * kSteadyRounding
+                               : std::numeric_limits<float>::infinity();
   nearest_m = static_cast<float>(query.nearest_m);
   inside_m = static_cast<float>(query.inside_m);
-  room_m = static_cast<float>(kRounding * (size + query.margin_m));
+  if (query.core) {
+    const double led = is_led ? glm::length(query.ahead) : 0.0;
+    lever_m = above(query.core->lever_m());
+    behind_m = query.inside_m < 0.0 ? 0.0f : above(std::max(0.0, query.rank_m - led - query.core->reach_m()));
+    size += query.core->reach_m();
+    const double less = query.core->reach_m() - query.rank_m;
+    nearest_m = static_cast<float>(query.core->flattest_m() - less);
+    inside_m = static_cast<float>(query.core->least_flattest_m() - less);
+  }
+  size += query.margin_m;
+  in_floats = size < kLargest;
+  room_m = static_cast<float>(kRounding * size);
 }
 
-bool ContactHierarchy::can_hold(const Bounds& node, bool is_inner, const ContactQuery& q) {
+// As is_beside and is_behind (core_proof.h) say: of steady ground, of what is here, else of the way ahead.
+ContactHierarchy::Reach ContactHierarchy::reach_of_core(const Node& node, const FourQuery& q) {
+  constexpr float kSquared = 4.0f * kFloatRounding;
+  constexpr float kLeastCone = 0.06f;  // cosine; is_beside asks for 0.05
+  const Four zero{};
+  const Four box2 = box_distance2(node, q);
+  const FourMask steady = q.nearest_m * node.least_curvature > q.least_steady;
+  const FourMask unsteady =
+      (node.least_curvature < zero) & (q.inside_m * node.least_curvature < q.least_steady - kSteadyRounding);
+  Four d2 = zero, along = zero;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Four d = q.centre[k] - 0.5f * (node.min[k] + node.max[k]) + (steady ? zero : q.ahead[k]);
+    d2 += d * d;
+    along += d * node.axis[k];
+  }
+  const Four way = steady ? zero : zero + q.margin_m;
+  const Four away = max(along, -along), rounding = 2.0f * q.room_m + kFloatRounding * (away + node.radius_m);
+  const Four across2 = d2 - along * along, across_rounding = kSquared * d2;
+  const Four cos2 = node.cos_half * node.cos_half, sin2 = node.sin_half * node.sin_half;
+  const Four beside = away * node.sin_half + node.radius_m + (q.lever_m + way) + rounding;
+  const FourMask is_beside = (1.0f - kSquared) * cos2 * (across2 - across_rounding) > beside * beside;
+  const Four behind = -along * node.cos_half - node.radius_m - (q.behind_m + way) - rounding;
+  const FourMask is_behind =
+      (behind > zero) & ((1.0f + kSquared) * sin2 * (across2 + across_rounding) < behind * behind);
+  const FourMask is_missed = (node.cos_half > kLeastCone) & (is_beside | is_behind);
+  return {box2, (box2 <= q.farthest2) & ~is_missed, steady, unsteady};
+}
+
+FourMask ContactHierarchy::in_region(const Node& node, const FourQuery& q) {
+  FourMask in = ~FourMask{};
+  for (std::size_t k = 0; k < 3; ++k)
+    in &= (node.min[k] - q.room_m <= q.high[k]) & (node.max[k] + q.room_m >= q.low[k]);
+  return in;
+}
+
+void ContactHierarchy::look_closer(const Node& node, const ContactQuery& query, Reach& reach) {
+  for (std::uint32_t lane = 0; lane < kFour; ++lane)
+    if (reach.reached[lane] && !can_hold(node.at(lane), !node.is_leaf(lane), query, reach.ground(lane)))
+      reach.reached[lane] = 0;
+}
+
+bool ContactHierarchy::can_hold(const Bounds& node, bool is_inner, const ContactQuery& q, Ground ground) {
   const Vec3 low = node.low(), high = node.high();
   if (q.steady_only) {
     const Vec3 beside = glm::max(low - q.region.max, q.region.min - high);
@@ -65,7 +124,7 @@ bool ContactHierarchy::can_hold(const Bounds& node, bool is_inner, const Contact
   const double box2 = distance2_to_box(low, high, q.centre);
   const bool outside = box2 <= q.nearest_m * q.nearest_m, inside = q.inside_m >= 0.0 && box2 <= q.inside_m * q.inside_m;
   if (!outside && !inside) return false;
-  if (q.core) return touchable(node, is_inner, q, box2);
+  if (q.core) return touchable(node, is_inner, q, box2, ground);
   const bool here = q.steady_only || is_steady(q, node.least_curvature, node.greatest_curvature);
   const Vec3 d = q.centre - node.middle() + (here ? Vec3(0.0) : q.ahead);
   const double radius = node.radius_m + (here ? 0.0 : q.margin_m), d2 = glm::dot(d, d);
@@ -152,11 +211,14 @@ NormalCone ContactHierarchy::normals_of(const Bounds& node) {
   return {(1.5 - 0.5 * glm::dot(axis, axis)) * axis, node.cos_half};
 }
 
-bool ContactHierarchy::touchable(const Bounds& node, bool is_inner, const ContactQuery& q, double box2) {
+bool ContactHierarchy::touchable(const Bounds& node, bool is_inner, const ContactQuery& q, double box2, Ground ground) {
   const Vec3 low = node.low(), high = node.high();
   const NormalCone normals = normals_of(node);
   const SurfaceBounds part{0.5 * (low + high), 0.5 * (high - low), normals};
-  const bool here = q.margin_m == 0.0 || q.steady_only || is_steady_for_core(q, node.least_curvature, normals);
+  const bool still = q.margin_m == 0.0 || q.steady_only;
+  const bool is_known = ground != Ground::unknown;
+  const bool here =
+      still || (is_known ? ground == Ground::steady : is_steady_for_core(q, node.least_curvature, normals));
   const bool is_led = !here && q.core_ahead;
   const FingerCore& core = is_led ? *q.core_ahead : *q.core;
   const double way = here ? 0.0 : q.margin_m;
@@ -164,7 +226,7 @@ bool ContactHierarchy::touchable(const Bounds& node, bool is_inner, const Contac
   // No rank changes by more than the finger goes.
   const double led = is_led ? std::sqrt(glm::dot(q.ahead, q.ahead)) : 0.0, rank = q.rank_m - led;
   const double inside = q.inside_m < 0.0 ? 0.0 : std::max(0.0, rank - core.reach_m());
-  if (!any_normal && (is_beside(core, part, way) || is_behind(core, part, way + inside))) return false;
+  if (!any_normal && !is_known && (is_beside(core, part, way) || is_behind(core, part, way + inside))) return false;
   if (!any_normal && q.inside_m < 0.0 && rank < core.deep_rank_m() && core.least_rank(normals) > rank) return false;
   // Boxes that are no further off than that can't be so far outside.
   const double far = core.outside_at(rank, way);

@@ -125,7 +125,10 @@ class ContactHierarchy {
   friend class ContactHierarchyBuilder;
   static constexpr std::uint32_t kLeaf = 0x80000000u;
   static constexpr std::uint32_t kFour = 4;
-  static constexpr double kFarthest2 = 1e30;  ///< m^2: parts that are not there are further off
+  static constexpr float kFloatRounding = 1e-6f;   ///< ratio, far above what floats are rounded by
+  static constexpr float kSteadyRounding = 2e-5f;  ///< twice what a product with a curvature is, which is about 1
+  static constexpr double kLargest = 1e10;         ///< m: floats are asked up to here ...
+  static constexpr double kFarthest2 = 1e30;       ///< ... m^2: and parts that are not there are further off
 
   /// What a search asks of a part of the surface.
   struct Bounds {
@@ -161,8 +164,7 @@ class ContactHierarchy {
     std::array<float, 3> along;  ///< unit
     float most;                  ///< |normal . along| of its normals, rounded up
   };
-  /// A query of a round finger for four parts at once, in floats. All that rounding may change is made up for by asking
-  /// for more.
+  /// A query for four parts at once, in floats. All that rounding may change is made up for by asking for more.
   struct FourQuery {
     FourQuery(const ContactQuery& query, const Bounds& all);
     /// A visitor may have shrunk its bounds.
@@ -172,15 +174,27 @@ class ContactHierarchy {
     }
     double from_margin_m, from_nearest_m, from_inside_m;
     std::array<Four, 3> centre, ahead;
-    float margin_m, nearest2, inside2;        ///< inside2 below zero: none
-    float farthest2;                          ///< of the two
-    float least_steady, nearest_m, inside_m;  ///< what curvature times height has to be above, and below less that
-    float room_m;                             ///< by which coordinates and distances along an axis may be wrong
+    float margin_m, nearest2, inside2;  ///< inside2 below zero: none
+    float farthest2;                    ///< of the two
+    /// What curvature times height has to be above, and below less that; of a core above, at the first height, for any
+    /// normals, and at the second for some.
+    float least_steady, nearest_m, inside_m;
+    bool in_floats = false;                 ///< floats hold the squares of its coordinates
+    float room_m;                           ///< by which coordinates and distances along an axis may be wrong
+    float lever_m = 0.0f, behind_m = 0.0f;  ///< of a core: how far beside and behind the centre its contacts may be
+    std::array<Four, 3> low, high;          ///< of the region, where there is one
   };
+  /// What reach_of_core has found of a part: whether its ground is steady. Then what it asks is not asked again.
+  enum class Ground : std::uint8_t { unknown, steady, unsteady };
   /// Of four parts: the boxes' squared distances, and whether they can hold a contact, -1 where they can, else 0.
   struct Reach {
     Four box2;
     FourMask reached;
+    FourMask steady, unsteady;  ///< of a core: what is certain of the ground
+
+    Ground ground(std::uint32_t lane) const {
+      return steady[lane] ? Ground::steady : unsteady[lane] ? Ground::unsteady : Ground::unknown;
+    }
   };
 
   static NormalCone normals_of(const Bounds& node);
@@ -189,19 +203,28 @@ class ContactHierarchy {
                       : is_steady(query, node.least_curvature, node.greatest_curvature);
   }
   static Reach reach_of_round(const Node& node, const FourQuery& query);
+  /// Of a finger that is not round, as far as the cones and balls alone tell.
+  static Reach reach_of_core(const Node& node, const FourQuery& query);
+  static FourMask in_region(const Node& node, const FourQuery& query);
+  static Four box_distance2(const Node& node, const FourQuery& query);
   /// Of any query, of one part after the other.
   Reach reach_of_any(std::uint32_t index, const ContactQuery& query) const;
   Reach reach(std::uint32_t index, const ContactQuery& query, const FourQuery& four) const {
-    const bool round = !query.core && !query.steady_only && query.tilt_rad <= 0.0;
-    return round && in_floats_ ? reach_of_round(nodes_[index], four) : reach_of_any(index, query);
+    if (!in_floats_ || !four.in_floats || (query.tilt_rad > 0.0 && !query.core)) return reach_of_any(index, query);
+    Reach reach = query.core ? reach_of_core(nodes_[index], four) : reach_of_round(nodes_[index], four);
+    if (query.steady_only) reach.reached &= in_region(nodes_[index], four);
+    if (query.core || query.steady_only) look_closer(nodes_[index], query, reach);
+    return reach;
   }
+  /// The parts that are reached so far, one by one.
+  static void look_closer(const Node& node, const ContactQuery& query, Reach& reach);
   /// Whether a part can hold a contact. `is_inner`: it is about several triangles, or that is not known.
-  static bool can_hold(const Bounds& node, bool is_inner, const ContactQuery& query);
+  static bool can_hold(const Bounds& node, bool is_inner, const ContactQuery& query, Ground ground = Ground::unknown);
   /// Whether every contact that the query asks for has a normal that the node doesn't have, leaning too far into
   /// `along`.
   static bool misses(const Rim& rim, const Bounds& node, const ContactQuery& query);
   /// Whether a finger that is not round can touch the node, whose box is that far from its centre, squared.
-  static bool touchable(const Bounds& node, bool is_inner, const ContactQuery& query, double box2);
+  static bool touchable(const Bounds& node, bool is_inner, const ContactQuery& query, double box2, Ground ground);
 
   /// Part `place % 4` of node `place / 4`.
   struct Entry {
@@ -246,23 +269,30 @@ class ContactHierarchy::Outline {
 
 inline ContactHierarchy::Outline ContactHierarchy::outline() const { return Outline(all_); }
 
+inline Four ContactHierarchy::box_distance2(const Node& node, const FourQuery& q) {
+  Four box2{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Four gap = max(max(node.min[k] - q.centre[k], q.centre[k] - node.max[k]) - q.room_m, Four{});
+    box2 += gap * gap;
+  }
+  return (1.0f - kFloatRounding) * box2;
+}
+
 // Seen from c the points lie in a ball about the box's middle, in a cone as wide as the sine radius/|d| tells; c may
 // move by the margin. Asked is whether the angle of d and +-axis is at most that and the cone's half: by cosines times
 // |d|, and those by their squares. Without branches, since which of these tells is as good as random.
 inline ContactHierarchy::Reach ContactHierarchy::reach_of_round(const Node& node, const FourQuery& q) {
-  constexpr float kRounding = 1e-6f, kSquared = 4e-6f;  // ratios, far above what floats are rounded by
+  constexpr float kRounding = kFloatRounding, kSquared = 4.0f * kRounding;
   const Four zero{};
   const FourMask steady =
       (q.nearest_m * node.least_curvature > q.least_steady) & (q.inside_m * node.greatest_curvature < -q.least_steady);
-  Four box2 = zero, d2 = zero, along = zero;
+  const Four box2 = box_distance2(node, q);
+  Four d2 = zero, along = zero;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Four gap = max(max(node.min[k] - q.centre[k], q.centre[k] - node.max[k]) - q.room_m, zero);
-    box2 += gap * gap;
     const Four d = q.centre[k] - 0.5f * (node.min[k] + node.max[k]) + (steady ? zero : q.ahead[k]);
     d2 += d * d;
     along += d * node.axis[k];
   }
-  box2 *= 1.0f - kRounding;
   const Four radius = (1.0f + kRounding) * (node.radius_m + (steady ? zero : zero + q.margin_m)) + 2.0f * q.room_m;
   const Four radius2 = radius * radius, cos2 = node.cos_half * node.cos_half;
   const Four sight2 = (1.0f - kRounding) * d2 - radius2, most_sight2 = d2 - (1.0f - 3.0f * kSquared) * radius2;
@@ -278,7 +308,7 @@ inline ContactHierarchy::Reach ContactHierarchy::reach_of_round(const Node& node
   const Four sin2 = (1.0f - kSquared) * node.sin_half * node.sin_half;
   const FourMask any = (node.cos_half <= -1.0f) | (sight2 <= zero) | (~is_narrow & (sin2 * sight2 < cos2 * radius2));
   const FourMask outside = box2 <= q.nearest2, inside = box2 <= q.inside2;
-  return {box2, (outside & (any | faces(along))) | (inside & (any | faces(-along)))};
+  return {box2, (outside & (any | faces(along))) | (inside & (any | faces(-along))), FourMask{}, FourMask{}};
 }
 
 inline void ContactHierarchy::push(std::uint32_t index, const Reach& reach, Stack& stack, std::uint32_t after) {

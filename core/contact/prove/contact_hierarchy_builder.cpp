@@ -37,9 +37,9 @@ class ContactHierarchyBuilder {
     tree_.order_.reserve(entries_.size());
     tree_.all_ = stored(build_node(0, entries_.size()));
     if (!tree_.rim_of_.empty()) tree_.rim_of_.resize(kFour * tree_.nodes_.size());
-    constexpr double kLeast = 1e-10, kMost = 1e10;
-    const double size = tree_.all_.radius_m;
-    tree_.in_floats_ = tree_.rims_.empty() && size > kLeast && glm::length(tree_.all_.middle()) + size < kMost;
+    constexpr double kLeast = 1e-10;  // m
+    const double size = tree_.all_.radius_m, largest = glm::length(tree_.all_.middle()) + size;
+    tree_.in_floats_ = tree_.rims_.empty() && size > kLeast && largest < ContactHierarchy::kLargest;
   }
 
   struct Bounds {

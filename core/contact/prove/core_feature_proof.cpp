@@ -108,12 +108,14 @@ bool is_hollow_vertex(ContactContext& context, std::uint32_t t, std::uint32_t co
 double vertex_margin(ContactContext& context, const FingerCore& core, std::uint32_t t, std::uint32_t corner,
                      const RankBound& bound, double enough_m, bool glance, int& looks) {
   const ContactMesh& mesh = context.cache.mesh();
+  ++looks;
+  double margin = margin_by_rank(core, mesh.position(t, corner), Vec3(0.0), bound);
+  if (is_enough(margin, enough_m)) return margin;
   const std::optional<VertexNormals> normals = VertexNormals::around(mesh, t, corner);
   const NormalCone cone = normals ? normals->cone() : NormalCone{};
   const SurfaceBounds bounds{mesh.position(t, corner), Vec3(0.0), cone};
   const std::optional<CreaseNet> arc = normals ? normals->arc() : std::nullopt;
-  ++looks;
-  double margin = std::max(margin_by_rank(core, bounds.middle, bounds.half, bound), margin_by_depth(core, cone, bound));
+  margin = std::max(margin, margin_by_depth(core, cone, bound));
   if (arc && !is_enough(margin, enough_m))
     margin = std::max(margin, crease_margin(core, *arc, enough_m, glance, looks));
   if (!is_enough(margin, arc ? kEnoughShare * enough_m : enough_m))

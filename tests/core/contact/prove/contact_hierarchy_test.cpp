@@ -305,7 +305,7 @@ ContactQuery in_doubles(ContactQuery query) {
 
 ContactQuery random_query(Random& random, double size_m) {
   ContactQuery query;
-  query.centre = random.in_cube(0.6 * size_m);
+  query.centre = random.in_cube(0.6 * size_m) * (random.below(20) == 0 ? std::pow(10.0, random.in(0.0, 40.0)) : 1.0);
   const bool unlimited = random.below(10) == 0;
   query.nearest_m = unlimited ? std::numeric_limits<double>::max() : random.in(0.05, 0.8) * size_m;
   query.inside_m = random.below(2) ? -1.0 : unlimited ? query.nearest_m : random.in(0.0, 0.5) * size_m;
