@@ -296,6 +296,7 @@ void find_smooth_contact(ContactContext& context, const SearchStructures& search
     state.touched.count = 0;
     state.clearance = Clearance{};
   }
+  const double before = depth_before(context, state);
   const bool follows = follow_or_start(context, search, sample_is_kept, state, decided, touched);
   const bool watches = state.start != Start::searching;  // else the tick has done enough
   if (touched) {
@@ -307,7 +308,9 @@ void find_smooth_contact(ContactContext& context, const SearchStructures& search
   } else if (watches && follows) {
     watch_others(context, search, state, decided);
   }
-  const double late = was_put_elsewhere(step_of(context)) ? 0.0 : context.late_m + context.moved_m;
+  double late = was_put_elsewhere(step_of(context)) ? 0.0 : context.late_m + context.moved_m;
+  // What the search comes to may be as deep as what was lost before it: places count as deeper by twice the way.
+  if (!follows) late += 0.5 * std::max(0.0, before - decided.contact.contact.penetration_m);
   state.late_m = decided.searching ? static_cast<float>(late) : 0.0f;
 }
 
