@@ -109,6 +109,13 @@ FourMask ContactHierarchy::in_region(const Node& node, const FourQuery& q) {
   return in;
 }
 
+void ContactHierarchy::leave_out_rims(std::uint32_t index, const ContactQuery& query, Reach& reach) const {
+  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+    const std::uint32_t rim = reach.reached[lane] ? rim_of_[kFour * index + lane] : 0;
+    if (rim != 0 && misses(rims_[rim - 1], nodes_[index].at(lane), query)) reach.reached[lane] = 0;
+  }
+}
+
 void ContactHierarchy::look_closer(const Node& node, const ContactQuery& query, Reach& reach) {
   for (std::uint32_t lane = 0; lane < kFour; ++lane)
     if (reach.reached[lane] && !can_hold(node.at(lane), !node.is_leaf(lane), query, reach.ground(lane)))
@@ -149,10 +156,9 @@ ContactHierarchy::Reach ContactHierarchy::reach_of_any(std::uint32_t index, cons
   for (std::uint32_t lane = 0; lane < kFour && node.link[lane] != kNone; ++lane) {
     const Bounds part = node.at(lane);
     reach.box2[lane] = static_cast<float>(distance2_to_box(part.low(), part.high(), query.centre));
-    const std::uint32_t rim = rim_of_.empty() ? 0 : rim_of_[kFour * index + lane];
-    const bool holds = can_hold(part, !node.is_leaf(lane), query) && (rim == 0 || !misses(rims_[rim - 1], part, query));
-    reach.reached[lane] = holds ? -1 : 0;
+    reach.reached[lane] = can_hold(part, !node.is_leaf(lane), query) ? -1 : 0;
   }
+  if (!rim_of_.empty()) leave_out_rims(index, query, reach);
   return reach;
 }
 

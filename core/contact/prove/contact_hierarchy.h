@@ -214,10 +214,12 @@ class ContactHierarchy {
     Reach reach = query.core ? reach_of_core(nodes_[index], four) : reach_of_round(nodes_[index], four);
     if (query.steady_only) reach.reached &= in_region(nodes_[index], four);
     if (query.core || query.steady_only) look_closer(nodes_[index], query, reach);
+    if (!rim_of_.empty()) leave_out_rims(index, query, reach);
     return reach;
   }
   /// The parts that are reached so far, one by one.
   static void look_closer(const Node& node, const ContactQuery& query, Reach& reach);
+  void leave_out_rims(std::uint32_t index, const ContactQuery& query, Reach& reach) const;
   /// Whether a part can hold a contact. `is_inner`: it is about several triangles, or that is not known.
   static bool can_hold(const Bounds& node, bool is_inner, const ContactQuery& query, Ground ground = Ground::unknown);
   /// Whether every contact that the query asks for has a normal that the node doesn't have, leaning too far into
@@ -241,7 +243,7 @@ class ContactHierarchy {
   bool push_from(std::uint32_t place, const ContactQuery& query, const FourQuery& four, Stack& stack) const;
 
   Bounds all_{};            ///< of all triangles
-  bool in_floats_ = false;  ///< floats hold the squares of their coordinates, and there are no rims
+  bool in_floats_ = false;  ///< floats hold the squares of their coordinates
   std::vector<Node> nodes_;
   static constexpr std::uint32_t kPartShift = 29, kTriangleBits = (1u << kPartShift) - 1;
   std::vector<std::uint32_t> order_;   ///< part << kPartShift | triangle, of each leaf

@@ -39,7 +39,7 @@ class ContactHierarchyBuilder {
     if (!tree_.rim_of_.empty()) tree_.rim_of_.resize(kFour * tree_.nodes_.size());
     constexpr double kLeast = 1e-10;  // m
     const double size = tree_.all_.radius_m, largest = glm::length(tree_.all_.middle()) + size;
-    tree_.in_floats_ = tree_.rims_.empty() && size > kLeast && largest < ContactHierarchy::kLargest;
+    tree_.in_floats_ = size > kLeast && largest < ContactHierarchy::kLargest;
   }
 
   struct Bounds {
