@@ -142,8 +142,8 @@ class RivalSearch {
   SolverSettings settings_;
   double tracked_rank_m_;
   bool tracked_is_even_ = false;
-  bool steady_;           ///< contacts are followed over steady ground
-  int work_;  ///< of this tick so far
+  bool steady_;  ///< contacts are followed over steady ground
+  int work_;     ///< of this tick so far
   SearchWork cost_;
   int most_work_;
   std::optional<FingerCore> core_, core_ahead_;  ///< of a finger that is not round; in the middle of the look-ahead
