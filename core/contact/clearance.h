@@ -20,8 +20,8 @@ struct WatchedTriangle {
   bool operator==(const WatchedTriangle&) const = default;
 };
 
-/// Where a visit of the contact hierarchy begins, and where it broke off: numbers of nodes, of the tree over its parts
-/// and of a part.
+/// Where a visit of the contact hierarchy begins, and where it broke off: a node of the tree over its parts, and of
+/// that part four times a node and which of its four, counted from 1; 0: its beginning.
 struct VisitPlace {
   std::uint32_t part = 0, node = 0;
 };
