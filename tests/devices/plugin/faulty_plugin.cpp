@@ -177,8 +177,8 @@ void stop_handle(void* device) {
     handle.note("stopping ");
     ::usleep(200'000);
   }
-  ++handle.stops;
   handle.note("stop ");
+  ++handle.stops;  // what waits for it goes on after the note
 }
 
 void close_handle(void* device) {
