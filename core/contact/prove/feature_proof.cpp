@@ -18,16 +18,25 @@ constexpr int kManyFaces = 32;                     // around a vertex: to be ask
 /// An edge of a triangle by its curve's control points, local coordinates.
 struct EdgeEnds {
   Vec3 p, q;                  ///< corners
-  Vec3 from_p, from_q;        ///< unit: along the curve away from p; away from q
   Vec3 np, nq;                ///< corner normals of the triangle
   Vec3 inside;                ///< the opposite corner
   Vec3 middle_normal;         ///< of the normals along the edge, np and nq the others
   std::array<Vec3, 4> curve;  ///< control points
+
+  /// Those of its derivative.
+  std::array<Vec3, 3> speed() const {
+    return {3.0 * (curve[1] - curve[0]), 3.0 * (curve[2] - curve[1]), 3.0 * (curve[3] - curve[2])};
+  }
 };
+
+std::array<Vec3, 4> edge_curve(const ContactMesh& mesh, const PnPatch& patch, std::uint32_t t, std::uint32_t edge) {
+  static constexpr ControlPoint kNearFirst[3] = {b210, b021, b102}, kNearSecond[3] = {b120, b012, b201};
+  return {mesh.position(t, edge), patch.control_point(kNearFirst[edge]), patch.control_point(kNearSecond[edge]),
+          mesh.position(t, (edge + 1) % 3)};
+}
 
 EdgeEnds edge_ends(const ContactMesh& mesh, const PnPatch& patch, std::uint32_t t, std::uint32_t edge) {
   static constexpr ControlNormal kMiddle[3] = {n110, n011, n101};
-  static constexpr ControlPoint kNearFirst[3] = {b210, b021, b102}, kNearSecond[3] = {b120, b012, b201};
   EdgeEnds e;
   const std::uint32_t j = (edge + 1) % 3;
   e.p = mesh.position(t, edge);
@@ -36,14 +45,7 @@ EdgeEnds edge_ends(const ContactMesh& mesh, const PnPatch& patch, std::uint32_t 
   e.nq = mesh.normal(t, j);
   e.middle_normal = 0.5 * patch.mixed_weight * patch.normals[kMiddle[edge]];
   e.inside = mesh.position(t, (edge + 2) % 3);
-  const Vec3 chord = (e.q - e.p) / std::sqrt(glm::dot(e.q - e.p, e.q - e.p));
-  const auto direction = [](const Vec3& v, const Vec3& otherwise) {
-    const double length2 = glm::dot(v, v);
-    return length2 > 0.0 ? v / std::sqrt(length2) : otherwise;
-  };
-  e.curve = {e.p, patch.control_point(kNearFirst[edge]), patch.control_point(kNearSecond[edge]), e.q};
-  e.from_p = direction(e.curve[1] - e.p, chord);
-  e.from_q = direction(e.curve[2] - e.q, -chord);
+  e.curve = edge_curve(mesh, patch, t, edge);
   return e;
 }
 
@@ -60,8 +62,7 @@ double lean_along(const EdgeEnds& e, const std::array<Vec3, 3>& speed) {
 /// How far c lies beyond an end of the edge, seen along the curve from every place of it: (c - S).S' is a quintic whose
 /// Bezier coefficients have one sign then. On a contact it is h N.S', which is no more than the normals lean.
 double beyond_ends(const EdgeEnds& e, const Vec3& centre) {
-  const std::array<Vec3, 3> speed{3.0 * (e.curve[1] - e.curve[0]), 3.0 * (e.curve[2] - e.curve[1]),
-                                  3.0 * (e.curve[3] - e.curve[2])};
+  const std::array<Vec3, 3> speed = e.speed();
   const std::array<Vec3, 4> d{centre - e.curve[0], centre - e.curve[1], centre - e.curve[2], centre - e.curve[3]};
   const auto at = [&](std::size_t i, std::size_t j) { return glm::dot(d[i], speed[j]); };
   const std::array<double, 6> g{at(0, 0),
@@ -80,24 +81,24 @@ double beyond_ends(const EdgeEnds& e, const Vec3& centre) {
   return (clear - lean * std::sqrt(farthest2)) / (std::sqrt(fastest2) + lean);
 }
 
-/// Lower bound of the distance from c to a cubic with these control points: to its chord, less how far they leave it.
-/// Halved while that is under `enough`, at most `halvings` times.
-double curve_distance(const std::array<Vec3, 4>& b, const Vec3& c, double enough, int halvings) {
-  const Vec3 chord = b[3] - b[0];
+/// Lower bound of the distance from c to a cubic with these control points: the nearest of them, seen from c towards
+/// its chord. Halved while that is under `enough` and may come to be over `known`, at most `halvings` times.
+double curve_distance(const std::array<Vec3, 4>& b, const Vec3& c, double known, double enough, int halvings) {
+  const Vec3 chord = b[3] - b[0], d = c - b[0];
   const double length2 = glm::dot(chord, chord);
-  const auto from_chord = [&](const Vec3& x) {
-    const Vec3 d = x - b[0];
-    const double along = length2 > 0.0 ? std::clamp(glm::dot(d, chord) / length2, 0.0, 1.0) : 0.0;
-    return glm::distance(d, along * chord);
-  };
-  const double least = from_chord(c) - std::max(from_chord(b[1]), from_chord(b[2]));
+  const double along = length2 > 0.0 ? std::clamp(glm::dot(d, chord) / length2, 0.0, 1.0) : 0.0;
+  const Vec3 away = d - along * chord, from_end = c - b[3];
+  const double off = std::sqrt(glm::dot(away, away));
+  const double nearest = std::min(std::min(glm::dot(d, away), glm::dot(c - b[1], away)),
+                                  std::min(glm::dot(c - b[2], away), glm::dot(from_end, away)));
+  const double least = off > 0.0 ? nearest / off : 0.0;
   if (least >= enough || halvings == 0) return least;
+  if (std::min(glm::dot(d, d), glm::dot(from_end, from_end)) <= known * known) return least;
   const Vec3 ab = 0.5 * (b[0] + b[1]), bc = 0.5 * (b[1] + b[2]), cd = 0.5 * (b[2] + b[3]);
   const Vec3 abc = 0.5 * (ab + bc), bcd = 0.5 * (bc + cd), middle = 0.5 * (abc + bcd);
-  const double first = curve_distance({b[0], ab, abc, middle}, c, enough, halvings - 1);
-  return first < enough && halvings == 1
-             ? first
-             : std::min(first, curve_distance({middle, bcd, cd, b[3]}, c, enough, halvings - 1));
+  const double first = curve_distance({b[0], ab, abc, middle}, c, known, enough, halvings - 1);
+  return first <= known ? first
+                        : std::min(first, curve_distance({middle, bcd, cd, b[3]}, c, known, enough, halvings - 1));
 }
 
 /// Lower bound of the distance from c to an edge's curve by its corners: its control points are those of the chord less
@@ -149,16 +150,29 @@ double beyond_chord(const ContactMesh& mesh, std::uint32_t t, std::uint32_t k, c
   return (std::max(low, -high) - leans * farthest) / (1.0 + leans);
 }
 
-/// How far c lies over the triangle rather than over the edge's fan, at both ends.
+/// How far c lies over the triangle rather than over the edge's fan, seen from every place of the edge: with T = S' and
+/// n the triangle's normal there (c - S).(T x n) has the sign of the triangle's side, a polynomial of degree 7 whose
+/// Bezier coefficients have it then. On a contact of a convex fan it has the other one, or is 0.
 double over_face(const EdgeEnds& e, const Vec3& centre) {
-  const auto at = [&](const Vec3& point, const Vec3& tangent, const Vec3& normal) {
-    Vec3 away = glm::cross(tangent, normal);
-    const double length2 = glm::dot(away, away);
-    if (!(length2 > 1e-12)) return 0.0;
-    away /= glm::dot(away, e.inside - point) > 0.0 ? -std::sqrt(length2) : std::sqrt(length2);
-    return -glm::dot(centre - point, away);
-  };
-  return std::min(at(e.p, e.from_p, e.np), at(e.q, e.from_q, e.nq));
+  constexpr double kFour[5] = {1.0, 4.0, 6.0, 4.0, 1.0}, kThree[4] = {1.0, 3.0, 3.0, 1.0};
+  constexpr double kSeven[8] = {1.0, 7.0, 21.0, 35.0, 35.0, 21.0, 7.0, 1.0};
+  const std::array<Vec3, 3> t = e.speed();
+  const std::array<Vec3, 5> across{
+      glm::cross(t[0], e.np), 0.5 * (glm::cross(t[0], e.middle_normal) + glm::cross(t[1], e.np)),
+      (glm::cross(t[0], e.nq) + 4.0 * glm::cross(t[1], e.middle_normal) + glm::cross(t[2], e.np)) / 6.0,
+      0.5 * (glm::cross(t[1], e.nq) + glm::cross(t[2], e.middle_normal)), glm::cross(t[2], e.nq)};
+  const double inside = glm::dot(across[0], e.inside - e.p);
+  if (!(inside * glm::dot(across[4], e.inside - e.q) > 0.0)) return 0.0;
+  std::array<double, 8> g{};
+  double most2 = 0.0;
+  for (std::size_t i = 0; i < across.size(); ++i) {
+    most2 = std::max(most2, glm::dot(across[i], across[i]));
+    for (std::size_t j = 0; j < e.curve.size(); ++j)
+      g[i + j] += kFour[i] * kThree[j] * glm::dot(across[i], centre - e.curve[j]);
+  }
+  double least = std::numeric_limits<double>::max();
+  for (std::size_t k = 0; k < g.size(); ++k) least = std::min(least, (inside > 0.0 ? g[k] : -g[k]) / kSeven[k]);
+  return least / std::sqrt(most2);
 }
 
 }  // namespace
@@ -204,51 +218,87 @@ std::optional<std::uint32_t> boundary_with_key(const ContactMesh& mesh, std::uin
   return std::nullopt;
 }
 
+namespace {
+
+/// What exclude_feature_contacts is asked for.
+struct Question {
+  PatchCache& cache;
+  const ContactMesh& mesh;
+  std::uint32_t t;
+  NormalForm form;
+  const Vec3& centre;
+  const RankBound& bound;
+  double enough_m, rounding_m;
+  bool enough_or_none;  ///< a margin under enough_m is worth nothing
+  FeatureMemory* memory;
+};
+
+double edge_margin(const Question& q, std::uint32_t k, bool alone) {
+  double safe = q.bound.way_to(edge_distance(q.mesh, q.t, k, q.centre));
+  if (alone) safe = std::max(safe, beyond_chord(q.mesh, q.t, k, q.centre));
+  if (safe > 0.0 && safe >= q.enough_m) return safe;
+  if (q.memory) q.memory->count(kTestsOfEdge);
+  const PnPatch& patch = q.cache.patch(q.t, q.form);
+  const std::array<Vec3, 4> curve = edge_curve(q.mesh, patch, q.t, k);
+  const double wanted = q.enough_m + q.rounding_m;
+  safe = q.bound.way_to(curve_distance(curve, q.centre, 0.0, 0.0, 0));
+  if (safe > 0.0 && safe >= wanted) return safe - q.rounding_m;
+  const EdgeEnds ends = edge_ends(q.mesh, patch, q.t, k);
+  safe = std::max({safe, beyond_ends(ends, q.centre), over_face(ends, q.centre)});
+  const EdgeLink other = q.mesh.across(q.t, k);
+  if (safe < wanted && other.triangle != kNone) {
+    const PnPatch& beside = q.cache.patch(other.triangle, q.form);
+    safe = std::max(safe, over_face(edge_ends(q.mesh, beside, other.triangle, other.edge), q.centre));
+  }
+  if (safe < wanted) {
+    const double known = q.bound.after(std::max(0.0, q.enough_or_none ? q.enough_m : safe));
+    safe =
+        std::max(safe, q.bound.way_to(curve_distance(curve, q.centre, known, q.bound.after(wanted), kCurveHalvings)));
+  }
+  return certain_margin(safe, q.rounding_m);
+}
+
+/// `side`: of this edge alone, or TriangleFeatures::kAll.
+double vertex_margin(const Question& q, std::uint32_t k, std::uint32_t side, int& faces) {
+  const Vec3 d = q.centre - q.mesh.position(q.t, k);
+  double safe = q.bound.way_to(std::sqrt(glm::dot(d, d)));
+  if (side != TriangleFeatures::kAll) {  // as a first look
+    const Vec3 start = start_of_curve(q.mesh, q.t, side, k == side);
+    safe = std::max(safe, glm::dot(d, start) / std::sqrt(glm::dot(start, start)));
+  }
+  if (safe < q.enough_m || !(safe > 0.0)) safe = std::max(safe, vertex_pull(q.mesh, q.t, k, q.centre, faces));
+  return certain_margin(safe, q.rounding_m);
+}
+
+}  // namespace
+
 double exclude_feature_contacts(PatchCache& cache, const TriangleFeatures& features, NormalForm form,
-                                const Vec3& centre, const RankBound& bound, double enough_m, FeatureMemory* memory) {
+                                const Vec3& centre, const RankBound& bound, double enough_m, FeatureMemory* memory,
+                                bool enough_or_none) {
   const ContactMesh& mesh = cache.mesh();
   const std::uint32_t t = features.triangle;
-  const double rounding = rounding_of_margin(centre, mesh.position(t, 0));
+  const Question question{cache,          mesh,  t,        form,
+                          centre,         bound, enough_m, rounding_of_margin(centre, mesh.position(t, 0)),
+                          enough_or_none, memory};
   double margin = std::numeric_limits<double>::max();
   for (std::uint32_t k = 0; k < 3; ++k) {
     if (!features.has_side(k) || mesh.edge_kind(t, k) == EdgeKind::smooth ||
         (memory && memory->knows(edge_key(mesh, t, k))))
       continue;
-    double far_off = bound.way_to(edge_distance(mesh, t, k, centre));
-    if (features.side != TriangleFeatures::kAll) far_off = std::max(far_off, beyond_chord(mesh, t, k, centre));
-    if (far_off > 0.0 && far_off >= enough_m) {
-      margin = std::min(margin, far_off);
-      if (memory) memory->add(edge_key(mesh, t, k));
-      continue;
-    }
-    if (memory) memory->count(kTestsOfEdge);
-    const EdgeEnds ends = edge_ends(mesh, cache.patch(t, form), t, k);
-    double safe = std::max(beyond_ends(ends, centre), over_face(ends, centre));
-    const EdgeLink other = mesh.across(t, k);
-    if (safe < enough_m && other.triangle != kNone)
-      safe = std::max(
-          safe, over_face(edge_ends(mesh, cache.patch(other.triangle, form), other.triangle, other.edge), centre));
-    if (safe < enough_m)
-      safe = std::max(safe, bound.way_to(curve_distance(ends.curve, centre, bound.after(enough_m), kCurveHalvings)));
-    safe = certain_margin(safe, rounding);
+    const double safe = edge_margin(question, k, features.side != TriangleFeatures::kAll);
     margin = std::min(margin, safe);
     if (memory && safe > 0.0) memory->add(edge_key(mesh, t, k));
+    if (enough_or_none && safe < enough_m) return 0.0;
   }
   for (std::uint32_t k = 0; k < 3; ++k) {
     if (!features.has_corner(k) || !mesh.feature_corner(t, k) || (memory && memory->knows(vertex_key(mesh, t, k))))
       continue;
-    const Vec3 d = centre - mesh.position(t, k);
-    double safe = bound.way_to(std::sqrt(glm::dot(d, d)));
     int faces = 0;
-    if (features.side != TriangleFeatures::kAll) {  // of this edge alone, as a first look
-      const Vec3 start = start_of_curve(mesh, t, features.side, k == features.side);
-      safe = std::max(safe, glm::dot(d, start) / std::sqrt(glm::dot(start, start)));
-    }
-    if (safe < enough_m || !(safe > 0.0)) safe = std::max(safe, vertex_pull(mesh, t, k, centre, faces));
-    safe = certain_margin(safe, rounding);
+    const double safe = vertex_margin(question, k, features.side, faces);
     margin = std::min(margin, safe);
+    if (memory) memory->count(faces / kFacesOfTest);
+    if (enough_or_none && safe < enough_m) return 0.0;
     if (!memory) continue;
-    memory->count(faces / kFacesOfTest);
     if (faces > kManyFaces) memory->add_dear(vertex_key(mesh, t, k), safe > 0.0);
     if (faces <= kManyFaces && safe > 0.0) memory->add(vertex_key(mesh, t, k));
   }

@@ -5,6 +5,7 @@
 #include "core/contact/prove/core_crease_proof.h"
 #include "core/contact/prove/core_feature_proof.h"
 #include "core/mesh/vertex_ring.h"
+#include "tests/core/creased_meshes.h"
 #include "tests/core/fingers.h"
 #include "tests/core/scenes.h"
 
@@ -18,24 +19,6 @@ using namespace tangent;
 using namespace tangent::test;
 
 namespace {
-
-/// Straight creases, and ones that curve between sides whose normals turn along them.
-std::vector<ContactMesh> creased_meshes() {
-  std::vector<ContactMesh> meshes;
-  const auto add = [&](PolygonMesh mesh, double crease_deg) {
-    mesh.normals.clear();
-    mesh.corner_normal.clear();
-    ContactMeshOptions options;
-    options.crease_rad = crease_deg * kDegree;
-    meshes.push_back(*ContactMesh::build(mesh, options));
-  };
-  for (const char* name : {"cube", "cylinder", "octagon", "tetrahedron"}) add(*generate_mesh(name), 40.0);
-  PolygonMesh stone = make_icosphere(0.030, 1);
-  Random random(310);
-  for (Vec3& p : stone.positions) p *= random.in(0.8, 1.2);
-  for (const double crease_deg : {5.0, 20.0, 35.0}) add(stone, crease_deg);
-  return meshes;
-}
 
 struct Crease {
   std::uint32_t triangle, side;

@@ -1,0 +1,54 @@
+// Creases and vertices: no round finger is kept off one that it touches or can come to touch.
+#include "core/contact/prove/feature_proof.h"
+
+#include "core/contact/edge_fan.h"
+#include "tests/core/creased_meshes.h"
+#include "tests/core/scenes.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+using namespace tangent;
+using namespace tangent::test;
+
+TEST_CASE("no round finger is kept off a crease that it touches or can come to touch within the margin") {
+  Random random(321);
+  int missed = 0, told = 0, all = 0, none_is_less = 0;
+  double nearest = 0.0;
+  for (const ContactMesh& mesh : creased_meshes()) {
+    PatchCache cache(mesh);
+    for (int i = 0; i < rounds(40000); ++i) {
+      const std::uint32_t t = random.below(mesh.triangle_count()), side = random.below(3);
+      if (mesh.edge_kind(t, side) != EdgeKind::crease) continue;
+      const EdgeFan& fan = cache.fan(t, side, random.in(0.0, 1.0), NormalForm::bernstein);
+      if (!fan.convex()) continue;
+      const double angle = random.in(0.0, 1.0) * std::atan2(fan.far.y, fan.far.x);
+      SurfaceSample s;
+      edge_sample(fan, Vec2(std::cos(angle), std::sin(angle)), s);
+      const double height = random.in(0.001, 0.030), way = std::pow(10.0, random.in(-4.5, -2.0));
+      const Vec3 centre = s.point + height * s.normal + way * random.direction();
+      const RankBound bound{random.in(0.5, 1.5) * height, random.below(2) ? 1.0 : 2.0};
+      // The bound rises by so much on the way there.
+      if (!(height < bound.rank_m + (bound.closing - 1.0) * way - 1e-9)) continue;
+      const double enough = random.below(2) ? 0.0 : std::pow(10.0, random.in(-4.0, -2.0));
+      const TriangleFeatures features{t, random.below(2) ? side : TriangleFeatures::kAll};
+      const double margin = exclude_feature_contacts(cache, features, NormalForm::bernstein, centre, bound, enough);
+      const double or_none =
+          exclude_feature_contacts(cache, features, NormalForm::bernstein, centre, bound, enough, nullptr, true);
+      ++all;
+      missed += margin > way * (1.0 + 1e-9) + 1e-12;
+      missed += or_none >= enough && or_none > way * (1.0 + 1e-9) + 1e-12;
+      none_is_less += enough > 0.0 && (or_none >= enough) != (margin >= enough);
+      told += margin > 0.0;
+      if (margin > 0.0) nearest = std::max(nearest, margin / way);
+    }
+  }
+  MESSAGE(missed << " missed of " << all << ", " << told << " excluded, by up to " << nearest << " of the way");
+  CHECK(missed == 0);
+  CHECK(none_is_less == 0);
+  CHECK(told > all / 20);
+  CHECK(nearest > 0.5);  // and does not fall far short
+}
