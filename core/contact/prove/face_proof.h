@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 
 namespace tangent {
 
@@ -47,7 +48,12 @@ struct PatchExclusion {
 /// 1/2^kBisections of the patch, or until the left parts would be unstable (det M or trace M below zero). Once
 /// the margin is `enough_m`, neither heights nor a wider margin are asked for. Where a margin is asked for at all,
 /// parts whose contacts stay unstable for some way are excluded by that way.
-PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m = 0.0);
+inline constexpr RankBound kEveryRank{std::numeric_limits<double>::infinity()};
+PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m = 0.0,
+                               const RankBound& bound = kEveryRank);
+
+/// Lower bound of the distance of a centre from the patch, m: a contact on it ranks no less.
+double least_distance(const PnPatch& patch, const Vec3& centre);
 
 /// Whether no centre nearer than `enough_m` has a contact of a rank under `bound` on the face, as far as a glance
 /// tells: without bisection.

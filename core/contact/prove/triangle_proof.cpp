@@ -8,6 +8,7 @@
 #include "core/finger/plane_contact.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace tangent {
 namespace {
@@ -53,7 +54,7 @@ PatchExclusion exclude_face(ContactContext& context, std::uint32_t t, const Rank
     proof.possible = false;
     return proof;
   }
-  proof = exclude_contact(context.cache.patch(t, context.settings.normal_form), centre, enough_m);
+  proof = exclude_contact(context.cache.patch(t, context.settings.normal_form), centre, enough_m, bound);
   proof.margin_m = std::max({at_once, proof.margin_m, bound.way_to(proof.least_height_m)});
   if (proof.margin_m > 0.0) proof.possible = false;
   return proof;
@@ -103,8 +104,8 @@ double exclude_corners(const ContactMesh& mesh, std::uint32_t t, const Vec3& cen
 }  // namespace
 
 PatchExclusion exclude_part(ContactContext& context, PartOfTriangle& part, const RankBound& bound, double enough_m,
-                            FeatureMemory* memory) {
-  if (part.part == SearchPart::whole) return exclude_triangle(context, part.triangle, bound, enough_m, memory);
+                            FeatureMemory* memory, bool face) {
+  if (part.part == SearchPart::whole) return exclude_triangle(context, part.triangle, bound, enough_m, memory, face);
   if (part.part == SearchPart::region) return exclude_region(context, part.triangle, bound);
   if (is_side(part.part)) return exclude_side(context, part, bound, enough_m, memory);
   return is_round(context.finger) ? exclude_face(context, part.triangle, bound, enough_m)
@@ -126,23 +127,27 @@ SurfacePlace start_on(const ContactContext& context, const PartOfTriangle& part,
   return place_on_face(part.triangle, proof.u, std::min(proof.v, 1.0 - proof.u));
 }
 
-bool excludes_at_a_glance(ContactContext& context, std::uint32_t t, const RankBound& bound, double enough_m,
-                          FeatureMemory* memory) {
+GlanceExcludes glance_at(ContactContext& context, std::uint32_t t, const RankBound& bound, double enough_m,
+                         FeatureMemory* memory) {
   const ContactMesh& mesh = context.cache.mesh();
   const Vec3& centre = context.pose.position;
   const NormalForm form = context.settings.normal_form;
   if (exclude_corners(mesh, t, centre) < enough_m &&
       !excludes_at_a_glance(context.cache.patch(t, form), centre, bound, enough_m))
-    return false;
-  return mesh.interior(t) ||
-         exclude_feature_contacts(context.cache, {t}, form, centre, bound, enough_m, memory) >= enough_m;
+    return GlanceExcludes::nothing;
+  if (mesh.interior(t)) return GlanceExcludes::all;
+  const double features = exclude_feature_contacts(context.cache, {t}, form, centre, bound, enough_m, memory, true);
+  return features >= enough_m ? GlanceExcludes::all : GlanceExcludes::face;
 }
 
 PatchExclusion exclude_triangle(ContactContext& context, std::uint32_t t, const RankBound& bound, double enough_m,
-                                FeatureMemory* memory) {
+                                FeatureMemory* memory, bool face) {
   const ContactMesh& mesh = context.cache.mesh();
   if (!is_round(context.finger)) return exclude_by_core(context, *context.core, t, bound, enough_m, memory);
-  PatchExclusion proof = exclude_face(context, t, bound, enough_m);
+  PatchExclusion proof;
+  proof.margin_m = std::numeric_limits<double>::max();
+  proof.possible = false;
+  if (face) proof = exclude_face(context, t, bound, enough_m);
   if (mesh.interior(t)) return proof;
   const double features = exclude_feature_contacts(context.cache, {t}, context.settings.normal_form,
                                                    context.pose.position, bound, enough_m, memory);

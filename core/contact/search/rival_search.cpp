@@ -294,10 +294,13 @@ Look RivalSearch::look_at(PartOfTriangle part, double enough_m, const RankBound&
   }
   ++dear_looks_;
   work_ += cost_.look;
-  if (enough_m > 0.0 && ahead_m_ > 0.0 && part.part == SearchPart::whole && excludes_ahead(t)) return {};
+  GlanceExcludes ahead = GlanceExcludes::nothing;
+  if (enough_m > 0.0 && ahead_m_ > 0.0 && part.part == SearchPart::whole) ahead = glance_ahead(t);
+  if (ahead == GlanceExcludes::all) return {};
   for (std::size_t i = 0; i < known_count_ && !is_side(part.part) && part.part != SearchPart::region; ++i)
     if (leads_to(i, t, std::min(enough_m, slope_m_))) return own_slope(enough_m);
-  const PatchExclusion proof = exclude_part(context_, part, up_to, enough_m, &features_);
+  const bool face = ahead == GlanceExcludes::nothing;
+  const PatchExclusion proof = exclude_part(context_, part, up_to, enough_m, &features_, face);
   work_ += cost_.test * (proof.tests + features_.take_tests());
   if (!proof.possible && proof.margin_m > 0.0) return {proof.margin_m, false, true};
   if (!proof.possible) return {kUnresolvedMargin * slope_m_, true, true};
@@ -316,12 +319,15 @@ Look RivalSearch::look_at(PartOfTriangle part, double enough_m, const RankBound&
   return solve(part, proof, enough_m, result);
 }
 
-bool RivalSearch::excludes_ahead(std::uint32_t t) {
+GlanceExcludes RivalSearch::glance_ahead(std::uint32_t t) {
   work_ += cost_.glance;
   const RankBound bound{ahead_bound_m_, closing_};
-  if (core_) return core_excludes_at_a_glance(context_, *core_ahead_, t, bound, ahead_m_, &features_ahead_);
+  if (core_)
+    return core_excludes_at_a_glance(context_, *core_ahead_, t, bound, ahead_m_, &features_ahead_)
+               ? GlanceExcludes::all
+               : GlanceExcludes::nothing;
   ContactContext there{context_.cache, settings_, context_.finger, ahead_pose_, context_.origin};
-  const bool excluded = excludes_at_a_glance(there, t, bound, ahead_m_, &features_ahead_);
+  const GlanceExcludes excluded = glance_at(there, t, bound, ahead_m_, &features_ahead_);
   work_ += cost_.test * features_ahead_.take_tests();
   return excluded;
 }

@@ -89,7 +89,8 @@ class RivalSearch {
   /// `up_to`: rank below which contacts count.
   Look look_at(PartOfTriangle part, double enough_m, const RankBound& up_to, RivalResult& result);
 
-  bool excludes_ahead(std::uint32_t t);
+  /// Of what of a triangle nothing counts in the look-ahead.
+  GlanceExcludes glance_ahead(std::uint32_t t);
   /// Ground that leads to a known contact. Steady ground does so for good, other ground as far as a look-ahead goes.
   Look own_slope(double enough_m) const { return enough_m > slope_m_ ? Look{slope_m_} : Look{}; }
 

@@ -163,7 +163,50 @@ TEST_CASE("a glance excludes no contact that comes up within what was asked for"
   CHECK(wrong == 0);
 }
 
-TEST_CASE("the least height is a lower bound of what moving the centre can make of it") {
+TEST_CASE(
+    "parts that rank behind a bound are left out by how far, and no stable contact before it comes up within that") {
+  int wider = 0, wrong = 0, told = 0;
+  at_random_places(128, rounds(200000), [&](Random& random, const PlaceOnPatch& at) {
+    const auto& [patch, s, size] = at;
+    const double h = size * random.in(-5.0, 5.0);
+    const double gone = size * std::pow(10.0, random.in(-3.0, 0.7)), enough = gone * random.in(0.1, 3.0);
+    const RankBound bound{std::abs(h) + size * random.in(-0.3, 0.3), random.below(2) ? 1.0 : 2.0};
+    const Vec3 centre = s.point + h * s.normal + gone * random.direction();
+    const PatchExclusion e = exclude_contact(patch, centre, enough, bound);
+    wider += e.margin_m > exclude_contact(patch, centre, enough).margin_m;
+    const Vec3 flat = glm::cross(patch.offsets[b030], patch.offsets[b003]);
+    const bool upright = glm::dot(glm::cross(s.point_u, s.point_v), s.normal) * glm::dot(flat, s.normal) > 0.0;
+    const Stability stability = normal_bend(s).at_height(h);
+    const bool stable = upright && stability.det > 1e-6 && stability.trace > 1e-6;
+    // What counts has risen by (closing - 1) of the way at most.
+    if (!stable || !(std::abs(h) < bound.rank_m + (bound.closing - 1.0) * gone - 1e-9 * size)) return;
+    ++told;
+    wrong += e.margin_m > gone * (1.0 + 1e-9);
+  });
+  CHECK(wider > rounds(200000) / 20);
+  CHECK(told > rounds(200000) / 20);
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("the least distance is a lower bound of that to every place, and of a far small patch all of it") {
+  Random random(129);
+  int wrong = 0;
+  double least = 1.0;
+  for (int i = 0; i < rounds(50000); ++i) {
+    const PnPatch patch = random_patch(random);
+    const double far = std::pow(10.0, random.in(-1.0, 2.0));
+    const Vec3 c = patch.origin + far * patch_size(patch) * random.direction();
+    const double distance = least_distance(patch, c);
+    const Vec2 uv = random.barycentric();
+    const double there = glm::distance(c, evaluate_point(patch, uv.x, uv.y));
+    wrong += distance > there * (1.0 + 1e-12);
+    if (far > 50.0) least = std::min(least, distance / there);
+  }
+  CHECK(wrong == 0);
+  CHECK(least > 0.9);
+}
+
+TEST_CASE("the least height is a lower bound of the distance to every place, which at a contact is its height") {
   Random random(122);
   int said = 0, wrong = 0;
   for (int i = 0; i < rounds(50000); ++i) {
@@ -175,7 +218,7 @@ TEST_CASE("the least height is a lower bound of what moving the centre can make 
     for (int k = 0; k < 10; ++k) {
       const Vec2 uv = random.barycentric();
       const SurfaceSample s = evaluate(patch, uv.x, uv.y);
-      wrong += glm::dot(c - s.point, s.normal) < e.least_height_m * (1.0 - 1e-12);
+      wrong += glm::distance(c, s.point) < e.least_height_m * (1.0 - 1e-12);
     }
   }
   CHECK(said > rounds(50000) / 20);

@@ -135,7 +135,7 @@ TEST_CASE("a visit that breaks off and goes on comes to the same triangles in th
 }
 
 TEST_CASE("a search over several ticks says so, ends, and a tick that does not search has the deepest place") {
-  const ScenePtr scene = scene_of(knobby_ball(5));
+  const ScenePtr scene = scene_of(knobby_ball(6));
   Finger ball{.shape = FingerShape::sphere, .radius_m = 0.020};
   Finger ellipsoid{.shape = FingerShape::ellipsoid, .semi_axes_m = {0.020, 0.010, 0.008}};
   for (const Finger& finger : {ball, ellipsoid}) {
@@ -266,7 +266,7 @@ TEST_CASE("an ellipsoid or a capsule that is put elsewhere and stays there comes
 }
 
 TEST_CASE("the state alone carries a search that is under way from one tick to the next") {
-  const ScenePtr scene = scene_of(knobby_ball(5));
+  const ScenePtr scene = scene_of(knobby_ball(6));
   const Preset preset = deepest_preset({.shape = FingerShape::sphere, .radius_m = 0.020});
   Stepper one(scene);
   TickState state;

@@ -1,0 +1,114 @@
+#include "core/contact/prove/miss_folds.h"
+
+namespace tangent::miss {
+namespace {
+
+/// Derivative of f along the side of a part from corner 0 to another: a fifth of it lies within `off` of `middle`.
+struct SideDerivative {
+  Vec2 middle;
+  double off = 0.0;
+};
+
+template <int Corner>
+SideDerivative side_derivative(const Part& part) {
+  SideDerivative side{0.2 * (part.at_corner(Corner) - part.at_corner(0))};
+  double most2 = 0.0;
+#pragma GCC unroll 5
+  for (int i = 0; i <= 4; ++i) {
+#pragma GCC unroll 5
+    for (int j = 0; j <= 4 - i; ++j) {
+      const Vec2& end = part.f[Corner == 1 ? quintic_index(i, j + 1) : quintic_index(i, j)];
+      const Vec2 d = end - part.f[quintic_index(i + 1, j)] - side.middle;
+      most2 = std::max(most2, glm::dot(d, d));
+    }
+  }
+  side.off = std::sqrt(most2);
+  return side;
+}
+
+/// f at the place x, y along the two sides from corner 0 of a part, by de Casteljau, and its derivatives there.
+struct QuinticValue {
+  Vec2 f, dx, dy;
+};
+QuinticValue value_at(const Part& part, double x, double y) {
+  QuinticMap row = part.f;
+  const double rest = 1.0 - x - y;
+#pragma GCC unroll 4
+  for (int degree = 4; degree >= 1; --degree) {
+    int k = 0;
+#pragma GCC unroll 5
+    for (int i = degree; i >= 0; --i) {
+      const int below = degree - i;
+#pragma GCC unroll 5
+      for (int j = below; j >= 0; --j, ++k) {  // in place: row[k] of the finer degree isn't read after it
+        const int next = (below + 1) * (below + 2) / 2 + below - j;
+        row[k] = rest * row[k] + x * row[next] + y * row[next + 1];
+      }
+    }
+  }
+  const Vec2 dx = 5.0 * (row[1] - row[0]), dy = 5.0 * (row[2] - row[0]);
+  return {rest * row[0] + x * row[1] + y * row[2], dx, dy};
+}
+
+}  // namespace
+
+bool could_be_stable(const Part& part, const Ground& ground) {
+  const auto flat = [&](int k) { return ground.flat(part.corner[k]); };
+  const Vec2 a = flat(1) - flat(0), b = flat(2) - flat(0);
+  const Vec2 xa = part.at_corner(0) - part.at_corner(1), xb = part.at_corner(0) - part.at_corner(2);
+  const double area = cross(a, b);
+  return cross(xa, xb) * area >= 0.0 && (cross(xa, b) + cross(a, xb)) * area >= 0.0;
+}
+
+double folded_margin(const Part& part, const Ground& ground) {
+  const SideDerivative a = side_derivative<1>(part), b = side_derivative<2>(part);
+  const Vec2 to_1 = part.corner[1] - part.corner[0], to_2 = part.corner[2] - part.corner[0];
+  const Vec2 flat_a = ground.flat(to_1), flat_b = ground.flat(to_2);
+  const double turn_a = 0.2 * ground.turn(to_1), turn_b = 0.2 * ground.turn(to_2);
+  const double side = cross(flat_a, flat_b) > 0.0 ? 1.0 : -1.0;
+  const auto length = [](const Vec2& x) { return std::sqrt(glm::dot(x, x)); };
+  const double long_a = length(a.middle) + a.off, long_b = length(b.middle) + b.off;
+
+  const double det = -side * cross(a.middle, b.middle);
+  const double det_room = det - (long_a * long_b - (long_a - a.off) * (long_b - b.off));
+  double margin = 0.0;
+  if (det_room > 1e-9 * det) {
+    const double rate = long_a * turn_b + long_b * turn_a;
+    margin = 2.0 * det_room / (rate + std::sqrt(rate * rate + 4.0 * turn_a * turn_b * det_room));
+  }
+  const double trace = side * (cross(a.middle, flat_b) + cross(flat_a, b.middle));
+  const double trace_room = trace - (a.off * length(flat_b) + b.off * length(flat_a));
+  if (trace_room > 1e-9 * trace)
+    margin = std::max(margin, trace_room / (turn_a * length(flat_b) + turn_b * length(flat_a)));
+  return std::min(margin, 1e300);
+}
+
+bool is_one_to_one(const Part& part, const Ground& ground) {
+  const SideDerivative a = side_derivative<1>(part), b = side_derivative<2>(part);
+  const auto length = [](const Vec2& x) { return std::sqrt(glm::dot(x, x)); };
+  const double area = cross(ground.flat(part.corner[1] - part.corner[0]), ground.flat(part.corner[2] - part.corner[0]));
+  const double det = (area > 0.0 ? 1.0 : -1.0) * cross(a.middle, b.middle);
+  return det > 0.0 && det > 1.0001 * (a.off * length(b.middle) + b.off * length(a.middle) + a.off * b.off);
+}
+
+bool find_zero(const Part& part, const Ground& ground, Vec2& uv) {
+  constexpr int kSteps = 6;
+  constexpr double kSettled = 1e-6, kRoom = 1e-6;  // of the part and of the patch
+  const Vec2 side_x = part.corner[1] - part.corner[0], side_y = part.corner[2] - part.corner[0];
+  const double area = cross(ground.flat(side_x), ground.flat(side_y));
+  double x = 1.0 / 3.0, y = 1.0 / 3.0;
+  for (int step = 0; step < kSteps; ++step) {
+    const QuinticValue at = value_at(part, x, y);
+    const double det = cross(at.dx, at.dy);
+    if (!(det * area > 0.0)) return false;
+    const double dx = -cross(at.f, at.dy) / det, dy = -cross(at.dx, at.f) / det;
+    x += dx;
+    y += dy;
+    uv = part.corner[0] + x * side_x + y * side_y;
+    if (std::max(std::abs(dx), std::abs(dy)) < kSettled) return std::min({uv.x, uv.y, 1.0 - uv.x - uv.y}) > -kRoom;
+    if (!(std::min({uv.x, uv.y, 1.0 - uv.x - uv.y}) > -0.5)) return false;
+  }
+  return false;
+}
+
+}  // namespace tangent::miss
