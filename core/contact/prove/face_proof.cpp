@@ -193,10 +193,10 @@ double corner_exclusion(const ContactMesh& mesh, std::uint32_t t, const Vec3& ce
   const Vec3 a = glm::cross(centre - p[0], n[0]), b = glm::cross(centre - p[1], n[1]),
              c = glm::cross(centre - p[2], n[2]);
   const Vec3 mean = (a + b + c) / 3.0;
-  const auto square = [](const Vec3& v) { return glm::dot(v, v); };
-  const double wide2 = std::max({square(a - mean), square(b - mean), square(c - mean)});
   const double least = std::min({glm::dot(a, mean), glm::dot(b, mean), glm::dot(c, mean)});
   if (!(least > 0.0)) return 0.0;
+  const auto square = [](const Vec3& v) { return glm::dot(v, v); };
+  const double wide2 = std::max({square(a - mean), square(b - mean), square(c - mean)});
   return certain_margin(least / std::sqrt(square(mean)) - std::sqrt(wide2), rounding_of_margin(centre, p[0]));
 }
 

@@ -178,9 +178,9 @@ double over_face(const EdgeEnds& e, const Vec3& centre) {
 }  // namespace
 
 /// Strongest pull of the edges around a vertex on a contact that rests on it, as a distance: positive where the
-/// contact leaves it along one of them.
+/// contact leaves it along one of them. Once one pulls by `enough`, no more are asked.
 static double vertex_pull(const ContactMesh& mesh, std::uint32_t t, std::uint32_t corner, const Vec3& centre,
-                          int& faces) {
+                          double enough, int& faces) {
   const Vec3 d = centre - mesh.position(t, corner);
   double strongest = -std::numeric_limits<double>::max();
   const auto pull = [&](const Vec3& offset) {
@@ -190,6 +190,7 @@ static double vertex_pull(const ContactMesh& mesh, std::uint32_t t, std::uint32_
   around_vertex_towards(
       mesh, t, corner, [&](const Vec3&) { return d; },
       [&](std::uint32_t at, std::uint32_t k) {
+        if (strongest > 0.0 && strongest >= enough) return;
         ++faces;
         const Vec3 starting = mesh.position(at, (k + 1) % 3) - mesh.position(at, k);
         if (mesh.edge_kind(at, k) == EdgeKind::crease) {
@@ -244,7 +245,8 @@ double edge_margin(const Question& q, std::uint32_t k, bool alone) {
   safe = q.bound.way_to(curve_distance(curve, q.centre, 0.0, 0.0, 0));
   if (safe > 0.0 && safe >= wanted) return safe - q.rounding_m;
   const EdgeEnds ends = edge_ends(q.mesh, patch, q.t, k);
-  safe = std::max({safe, beyond_ends(ends, q.centre), over_face(ends, q.centre)});
+  safe = std::max(safe, beyond_ends(ends, q.centre));
+  if (safe < wanted) safe = std::max(safe, over_face(ends, q.centre));
   const EdgeLink other = q.mesh.across(q.t, k);
   if (safe < wanted && other.triangle != kNone) {
     const PnPatch& beside = q.cache.patch(other.triangle, q.form);
@@ -252,8 +254,8 @@ double edge_margin(const Question& q, std::uint32_t k, bool alone) {
   }
   if (safe < wanted) {
     const double known = q.bound.after(std::max(0.0, q.enough_or_none ? q.enough_m : safe));
-    safe =
-        std::max(safe, q.bound.way_to(curve_distance(curve, q.centre, known, q.bound.after(wanted), kCurveHalvings)));
+    const double distance = curve_distance(curve, q.centre, known, q.bound.after(wanted), kCurveHalvings);
+    safe = std::max(safe, q.bound.way_to(distance));
   }
   return certain_margin(safe, q.rounding_m);
 }
@@ -266,7 +268,8 @@ double vertex_margin(const Question& q, std::uint32_t k, std::uint32_t side, int
     const Vec3 start = start_of_curve(q.mesh, q.t, side, k == side);
     safe = std::max(safe, glm::dot(d, start) / std::sqrt(glm::dot(start, start)));
   }
-  if (safe < q.enough_m || !(safe > 0.0)) safe = std::max(safe, vertex_pull(q.mesh, q.t, k, q.centre, faces));
+  if (safe < q.enough_m || !(safe > 0.0))
+    safe = std::max(safe, vertex_pull(q.mesh, q.t, k, q.centre, q.enough_m + q.rounding_m, faces));
   return certain_margin(safe, q.rounding_m);
 }
 

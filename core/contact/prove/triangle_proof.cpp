@@ -96,9 +96,9 @@ PatchExclusion exclude_side(ContactContext& context, const PartOfTriangle& part,
   return proof;
 }
 
-/// By the corners of a face.
-double exclude_corners(const ContactMesh& mesh, std::uint32_t t, const Vec3& centre) {
-  return std::max(corner_exclusion(mesh, t, centre), even_exclusion(mesh, t, centre));
+/// Whether the corners of a face tell as much.
+bool corners_exclude(const ContactMesh& mesh, std::uint32_t t, const Vec3& centre, double enough_m) {
+  return corner_exclusion(mesh, t, centre) >= enough_m || even_exclusion(mesh, t, centre) >= enough_m;
 }
 
 }  // namespace
@@ -132,7 +132,7 @@ GlanceExcludes glance_at(ContactContext& context, std::uint32_t t, const RankBou
   const ContactMesh& mesh = context.cache.mesh();
   const Vec3& centre = context.pose.position;
   const NormalForm form = context.settings.normal_form;
-  if (exclude_corners(mesh, t, centre) < enough_m &&
+  if (!corners_exclude(mesh, t, centre, enough_m) &&
       !excludes_at_a_glance(context.cache.patch(t, form), centre, bound, enough_m))
     return GlanceExcludes::nothing;
   if (mesh.interior(t)) return GlanceExcludes::all;
