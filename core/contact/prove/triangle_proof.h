@@ -34,8 +34,8 @@ SurfacePlace start_on(const ContactContext& context, const PartOfTriangle& part,
 /// Of what of a triangle a glance tells that it holds no contact.
 enum class GlanceExcludes : std::uint8_t { nothing, face, all };
 
-/// Of what of triangle t no centre nearer than `enough_m` to the context's has a contact of a rank under `bound`, as far
-/// as a glance tells. Round fingers.
+/// Of what of triangle t no centre nearer than `enough_m` to the context's has a contact of a rank under `bound`, as
+/// far as a glance tells. Round fingers.
 GlanceExcludes glance_at(ContactContext& context, std::uint32_t t, const RankBound& bound, double enough_m,
                          FeatureMemory* memory);
 
