@@ -43,12 +43,14 @@ struct PatchExclusion {
   }
 };
 
+inline constexpr RankBound kEveryRank{std::numeric_limits<double>::infinity()};
+
 /// `centre` in the patch's coordinates. Faces only: edges and vertices have fans of normals of their own. Where the
 /// whole patch can't be excluded, it is bisected: parts are excluded one by one until what is left is a contact, to
 /// 1/2^kBisections of the patch, or until the left parts would be unstable (det M or trace M below zero). Once
 /// the margin is `enough_m`, neither heights nor a wider margin are asked for. Where a margin is asked for at all,
-/// parts whose contacts stay unstable for some way are excluded by that way.
-inline constexpr RankBound kEveryRank{std::numeric_limits<double>::infinity()};
+/// parts whose contacts stay unstable for some way are excluded by that way. Of a round finger: at a contact |h| is the
+/// distance of c, and no rank is less, so parts that are further off than `bound` are excluded until they count.
 PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m = 0.0,
                                const RankBound& bound = kEveryRank);
 
@@ -59,7 +61,7 @@ double least_distance(const PnPatch& patch, const Vec3& centre);
 /// tells: without bisection.
 bool excludes_at_a_glance(const PnPatch& patch, const Vec3& centre, const RankBound& bound, double enough_m);
 
-/// The same for a patch that stands for another: contacts are stable or not on a triangle with these sides, and
+/// exclude_contact for a patch that stands for another: contacts are stable or not on a triangle with these sides, and
 /// `centre` is wrong for each normal, across the middle of the corners' normals by no more than a vector in the hull of
 /// +-`spread`, another in that of +-`bend`, and `rest_m`; margins are what is left beside that. Without `place_wanted`
 /// the search ends where the first part can't be excluded, and of a possible contact nothing else is told; nor is a

@@ -61,10 +61,11 @@ struct TriangleFeatures {
 };
 
 /// How far the centre may go until a contact on the crease or boundary edges of a triangle or on their ends can come
-/// up that is nearer than `bound`; the largest double where there are none, 0 where one may be there now. Judged from
-/// the ends of each edge: seen along the edge the centre passes its end once, seen across it leaves the face for the
-/// fan once. A margin under `enough_m` is worth some effort to widen, or, where it is asked for `enough_or_none`,
-/// nothing. What `memory` knows is left out, what is excluded added to it, and what was looked at counted there.
+/// up that is nearer than `bound`; the largest double where there are none, 0 where one may be there now. An edge is
+/// out where the centre is beyond its ends, seen along it from every place of it, or over one of its faces and not over
+/// the fan between them, or too far off. A margin under `enough_m` is worth some effort to widen, or, where it is asked
+/// for `enough_or_none`, nothing. What `memory` knows is left out, what is excluded added to it, and what was looked at
+/// counted there. Round fingers.
 double exclude_feature_contacts(PatchCache& cache, const TriangleFeatures& features, NormalForm form,
                                 const Vec3& centre, const RankBound& bound, double enough_m = 0.0,
                                 FeatureMemory* memory = nullptr, bool enough_or_none = false);
