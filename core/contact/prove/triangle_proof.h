@@ -12,7 +12,7 @@ namespace tangent {
 /// Proof that triangle t holds no contact of a rank under `bound`, its crease and boundary edges included; the margin
 /// is how far the centre may go until it could. One under `enough_m` is worth some effort to widen. `memory`: features
 /// that need not be looked at again, or null. Precondition: context.core of a finger that is not round.
-/// Without `face` only its creases, boundaries and their ends are asked for.
+/// Without `face` only its creases, boundaries and their ends are asked for (round fingers).
 PatchExclusion exclude_triangle(ContactContext& context, std::uint32_t t, const RankBound& bound, double enough_m = 0.0,
                                 FeatureMemory* memory = nullptr, bool face = true);
 
