@@ -11,10 +11,10 @@
 
 namespace tangent {
 
-/// A triangle that holds no deeper contact, but could before others do.
+/// A part of a triangle that holds no deeper contact, but could before others do.
 struct WatchedTriangle {
-  std::uint32_t triangle : 29 = 0;
-  std::uint32_t part : 2 = 0;         ///< 1 to 3: one of its sides by itself; 0: what else it is asked for
+  std::uint32_t triangle : 28 = 0;
+  std::uint32_t part : 3 = 0;         ///< SearchPart (prove/contact_hierarchy.h)
   std::uint32_t holds_rival : 1 = 0;  ///< a contact, or what may have become one, that was not deep enough
   float margin_m = 0.0f;  ///< how far from Clearance::centre the finger may go before it must be looked at again
   bool operator==(const WatchedTriangle&) const = default;

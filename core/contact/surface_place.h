@@ -64,6 +64,11 @@ inline double edge_fraction(std::uint32_t edge, double u, double v) {
 
 inline SurfacePlace place_on_face(std::uint32_t t, double u, double v) { return {Feature::face, 0, t, u, v}; }
 
+inline SurfacePlace place_on_vertex(std::uint32_t t, std::uint32_t corner) {
+  const Vec2 uv = corner_uv(corner);
+  return {Feature::vertex, static_cast<std::uint8_t>(corner), t, uv.x, uv.y};
+}
+
 inline SurfacePlace place_on_edge(std::uint32_t t, std::uint32_t edge, double f) {
   const Vec2 uv = edge_point_uv(edge, f);
   return {Feature::edge, static_cast<std::uint8_t>(edge), t, uv.x, uv.y};

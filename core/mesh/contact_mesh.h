@@ -92,7 +92,7 @@ struct MeshContent {
 
 class ContactMesh {
  public:
-  /// Fails when the mesh has no usable triangle or more than 2^29 triangles, when an index points nowhere, when
+  /// Fails when the mesh has no usable triangle or more than 2^28 triangles, when an index points nowhere, when
   /// an option is out of range, and when `file` normals are asked for and there are none.
   /// The same bits however `run_both` does its work.
   static Result<ContactMesh> build(const PolygonMesh& source, const ContactMeshOptions& options = {},

@@ -14,7 +14,7 @@
 
 namespace tangent {
 
-inline constexpr std::uint32_t kMaxTriangles = 1u << 29;  ///< triangle << 2 | edge leaves a bit for the direction
+inline constexpr std::uint32_t kMaxTriangles = 1u << 28;  ///< triangle << 3 | part of it in 31 bits (Clearance)
 
 /// One use of an edge by a triangle.
 class EdgeUse {

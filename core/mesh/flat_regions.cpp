@@ -68,7 +68,6 @@ class FlatRegionsBuilder {
       for (const std::uint32_t t : half)
         if (!visited_[t]) gather(t);
     for (FlatRegions::Region& r : flat_.regions_) plant(r);
-    mark_neighbours();
   }
 
  private:
@@ -124,18 +123,9 @@ class FlatRegionsBuilder {
     const Vec3 axis = std::abs(normal.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
     const Vec3 x = unit(glm::cross(normal, axis));
     flat_.regions_.push_back({normal, origin, x, glm::cross(normal, x), first, list.size() - first, 0});
-    if (flat_.marks_.empty()) flat_.marks_.assign(mesh_.triangle_count(), 0);
-    const auto mark = static_cast<std::uint32_t>(flat_.regions_.size() - 1) + FlatRegions::kFirstRegion;
+    if (flat_.marks_.empty()) flat_.marks_.assign(mesh_.triangle_count(), kNone);
+    const auto mark = static_cast<std::uint32_t>(flat_.regions_.size() - 1);
     for (std::size_t i = first; i < list.size(); ++i) flat_.marks_[list[i]] = mark;
-  }
-
-  void mark_neighbours() {
-    for (const std::uint32_t t : flat_.triangles_)
-      for (std::uint32_t k = 0; k < 3; ++k) {
-        const std::uint32_t other = mesh_.across(t, k).triangle;
-        if (other != kNone && mesh_.edge_kind(t, k) == EdgeKind::crease && flat_.marks_[other] == 0)
-          flat_.marks_[other] = 1;
-      }
   }
 
   void plant(FlatRegions::Region& r) {

@@ -40,12 +40,7 @@ class FlatRegions {
   bool empty() const { return marks_.empty(); }
   std::size_t count() const { return regions_.size(); }
   /// The region that a triangle belongs to, or kNone.
-  std::uint32_t of(std::uint32_t t) const {
-    return marks_.empty() || marks_[t] < kFirstRegion ? kNone : marks_[t] - kFirstRegion;
-  }
-  /// Whether searches ask for a triangle in parts, its face and its sides: those of regions and their neighbours across
-  /// a crease.
-  bool in_parts(std::uint32_t t) const { return !marks_.empty() && marks_[t] != 0; }
+  std::uint32_t of(std::uint32_t t) const { return marks_.empty() ? kNone : marks_[t]; }
   std::span<const std::uint32_t> triangles(std::uint32_t region) const {
     const Region& r = regions_[region];
     return {triangles_.data() + r.first, r.count};
@@ -60,7 +55,6 @@ class FlatRegions {
 
  private:
   friend class FlatRegionsBuilder;
-  static constexpr std::uint32_t kFirstRegion = 2;  ///< in marks_: 0 neither, 1 across a crease from a region
   static constexpr std::size_t kMaxDepth = 40;
 
   struct Region {
@@ -77,7 +71,7 @@ class FlatRegions {
     double beside(const Vec2& p) const;
   };
 
-  std::vector<std::uint32_t> marks_;  ///< by triangle; empty: the mesh has no region
+  std::vector<std::uint32_t> marks_;  ///< by triangle, kNone: in no region; empty: the mesh has none
   std::vector<Region> regions_;
   std::vector<std::uint32_t> triangles_;
   std::vector<Node> nodes_;

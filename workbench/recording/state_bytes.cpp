@@ -22,10 +22,10 @@ void describe(Stream& stream, TrackedPlane& plane) {
 template <class Stream>
 void describe(Stream& stream, WatchedTriangle& watched) {
   std::uint32_t packed =
-      watched.triangle | std::uint32_t{watched.part} << 29 | std::uint32_t{watched.holds_rival} << 31;
+      watched.triangle | std::uint32_t{watched.part} << 28 | std::uint32_t{watched.holds_rival} << 31;
   stream.all(packed, watched.margin_m);
-  watched.triangle = packed & ((1u << 29) - 1u);
-  watched.part = (packed >> 29) & 3u;
+  watched.triangle = packed & ((1u << 28) - 1u);
+  watched.part = (packed >> 28) & 7u;
   watched.holds_rival = (packed & (1u << 31)) != 0;
 }
 

@@ -13,7 +13,7 @@ namespace tangent {
 
 /// Changes with the fields of TickState; states of another layout can't be used, and ticks are then computed from the
 /// first one on.
-inline constexpr int kStateLayout = 3;
+inline constexpr int kStateLayout = 4;
 
 std::vector<unsigned char> state_bytes(const TickState& state);
 /// Fails on bytes that no tick on this scene can have left: a wrong length, an unknown feature, a triangle that it does

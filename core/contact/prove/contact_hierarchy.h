@@ -36,19 +36,31 @@
 
 namespace tangent {
 
-/// What of a triangle a search is asked to look at. All but those of flat regions of slivers and beside them are asked
-/// for as a whole (mesh/flat_regions.h).
+/// What of a triangle a search is asked to look at: a crease or boundary edge, and a vertex where such edges end, once
+/// for all triangles that have it.
 enum class SearchPart : std::uint8_t {
-  whole,  ///< its face, its crease and boundary edges and their ends
-  side0,  ///< edge 0 and its ends, and so on
+  face,
+  side0,  ///< edge 0 without its ends, and so on
   side1,
   side2,
-  face,    ///< its face alone
-  region,  ///< the faces of all triangles of its region
+  corner0,
+  corner1,
+  corner2,
+  region,  ///< the faces of all triangles of its region of slivers (mesh/flat_regions.h)
 };
 inline bool is_side(SearchPart part) { return part >= SearchPart::side0 && part <= SearchPart::side2; }
+inline bool is_corner(SearchPart part) { return part >= SearchPart::corner0 && part <= SearchPart::corner2; }
 inline std::uint32_t side_of(SearchPart part) {
   return static_cast<std::uint32_t>(part) - static_cast<std::uint32_t>(SearchPart::side0);
+}
+inline std::uint32_t corner_of(SearchPart part) {
+  return static_cast<std::uint32_t>(part) - static_cast<std::uint32_t>(SearchPart::corner0);
+}
+inline SearchPart side_part(std::uint32_t k) {
+  return static_cast<SearchPart>(static_cast<std::uint32_t>(SearchPart::side0) + k);
+}
+inline SearchPart corner_part(std::uint32_t k) {
+  return static_cast<SearchPart>(static_cast<std::uint32_t>(SearchPart::corner0) + k);
 }
 
 /// Which contacts are asked for. Heights and margins in metres, centre in local mesh coordinates.
@@ -70,7 +82,7 @@ struct ContactQuery {
   const FingerCore* core = nullptr;
   const FingerCore* core_ahead = nullptr;  ///< the same in the middle of the look-ahead, where `ahead` is not 0
   double here_m = 0.0;  ///< set for the visitor: the margin that its triangle is asked for, margin_m or 0
-  SearchPart part = SearchPart::whole;  ///< set for the visitor: what of its triangle is asked for
+  SearchPart part = SearchPart::face;  ///< set for the visitor: what of its triangle is asked for
   /// What has been done so far, of nodes and what the visitor adds (search_work.h), and when to break off.
   int work = 0, most_work = std::numeric_limits<int>::max();
   bool is_spent() const { return work >= most_work; }
@@ -234,7 +246,7 @@ class ContactHierarchy {
     float box2;
   };
   struct Stack {
-    std::array<Entry, 64> entries;  ///< three of each level of a tree of 2^29 triangles, and one
+    std::array<Entry, 64> entries;  ///< three of each level of a tree of 2^29 parts, and one
     int size = 0;
   };
   /// What is to be visited of a node, the nearest part on top; all of it, or what comes after the part in lane `after`.

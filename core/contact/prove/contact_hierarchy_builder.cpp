@@ -1,5 +1,6 @@
 #include "core/contact/prove/contact_hierarchy.h"
 
+#include "core/contact/prove/feature_nets.h"
 #include "core/contact/prove/float_bounds.h"
 #include "core/contact/prove/normal_set.h"
 #include "core/mesh/vertex_ring.h"
@@ -9,7 +10,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <unordered_map>
+#include <unordered_set>
+#include <utility>
 
 namespace tangent {
 
@@ -19,14 +21,15 @@ class ContactHierarchyBuilder {
 
   void build() {
     gather_triangles();
-    if (entries_.empty()) return;
-    gather_corners();
-    build_tree();
+    if (!entries_.empty()) build_tree();
   }
 
   void build(std::span<const std::uint32_t> triangles) {
-    for (const std::uint32_t t : triangles) gather(middle_of(t), t, SearchPart::whole);
-    gather_corners_here();
+    for (const std::uint32_t t : triangles) {
+      gather(middle_of(t), t, SearchPart::face);
+      gather_sides(t);
+    }
+    gather_corners(triangles);
     build_tree();
   }
 
@@ -55,16 +58,19 @@ class ContactHierarchyBuilder {
   };
 
   void gather_triangles() {
-    entries_.reserve(mesh_.usable_triangle_count());
-    for (std::uint32_t t = 0; t < mesh_.triangle_count(); ++t) {
-      if (!mesh_.usable(t)) continue;
-      const FlatRegions& flat = mesh_.flat_regions();
-      if (flat.in_parts(t)) gather_parts(t);
-      if (flat.of(t) != kNone) continue;
-      gather(middle_of(t), t, flat.in_parts(t) ? SearchPart::face : SearchPart::whole);
+    const FlatRegions& flat = mesh_.flat_regions();
+    std::vector<std::uint32_t> usable;
+    usable.reserve(mesh_.usable_triangle_count());
+    for (std::uint32_t t = 0; t < mesh_.triangle_count(); ++t)
+      if (mesh_.usable(t)) usable.push_back(t);
+    entries_.reserve(usable.size());
+    for (const std::uint32_t t : usable) {
+      if (flat.of(t) == kNone) gather(middle_of(t), t, SearchPart::face);
+      gather_sides(t);
     }
-    for (std::uint32_t r = 0; r < mesh_.flat_regions().count(); ++r) {
-      const std::uint32_t t = mesh_.flat_regions().triangles(r).front();
+    gather_corners(usable);
+    for (std::uint32_t r = 0; r < flat.count(); ++r) {
+      const std::uint32_t t = flat.triangles(r).front();
       gather(region_box(t).centre(), t, SearchPart::region);
     }
   }
@@ -78,59 +84,58 @@ class ContactHierarchyBuilder {
                         static_cast<std::uint32_t>(part) << ContactHierarchy::kPartShift | t});
   }
 
-  /// The crease and boundary edges of a triangle by themselves, once where both sides are asked for in parts. Every
-  /// vertex that a contact can rest on is an end of one of them, or a corner of a triangle that is asked for as a
-  /// whole.
-  void gather_parts(std::uint32_t t) {
+  /// A crease is its first triangle's. A hollow one holds no contact.
+  void gather_sides(std::uint32_t t) {
     for (std::uint32_t k = 0; k < 3; ++k) {
-      if (mesh_.edge_kind(t, k) == EdgeKind::smooth) continue;
-      const std::uint32_t other = mesh_.across(t, k).triangle;
-      if (other != kNone && other < t && mesh_.flat_regions().in_parts(other)) continue;
-      gather(0.5 * (mesh_.position(t, k) + mesh_.position(t, (k + 1) % 3)), t, static_cast<SearchPart>(1 + k));
+      const EdgeKind kind = mesh_.edge_kind(t, k);
+      if (kind == EdgeKind::boundary ||
+          (kind == EdgeKind::crease && t < mesh_.across(t, k).triangle && !is_hollow(t, k)))
+        gather(0.5 * (mesh_.position(t, k) + mesh_.position(t, (k + 1) % 3)), t, side_part(k));
     }
   }
+
+  bool is_hollow(std::uint32_t t, std::uint32_t k) const {
+    const EdgeLink other = mesh_.across(t, k);
+    const PnPatch near = make_patch(mesh_, t);
+    CreaseNet crease;
+    crease.curve = edge_points(near, k);
+    crease.near = edge_normal_coefficients(near, k);
+    crease.far = edge_normal_coefficients(make_patch(mesh_, other.triangle), other.edge);
+    std::swap(crease.far[0], crease.far[2]);
+    return tangent::is_hollow(crease);
+  }
+
+  /// Of the vertices where creases and boundaries end, those whose first triangle is one of these, ascending or not.
+  /// Where several fans of triangles meet in a vertex, each counts as one.
+  void gather_corners(std::span<const std::uint32_t> triangles) {
+    std::unordered_set<std::uint64_t> of_others;  // than the first triangle
+    std::vector<std::uint32_t> sorted;
+    for (const std::uint32_t t : triangles)
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        if (!mesh_.feature_corner(t, k) || of_others.count(corner_key(t, k))) continue;
+        std::uint32_t first = t, corner = k;
+        around_vertex(mesh_, t, k, [&](std::uint32_t other, std::uint32_t at) {
+          of_others.insert(corner_key(other, at));
+          if (other < first) {
+            first = other;
+            corner = at;
+          }
+        });
+        if (sorted.empty()) {
+          sorted.assign(triangles.begin(), triangles.end());
+          std::sort(sorted.begin(), sorted.end());
+        }
+        if (std::binary_search(sorted.begin(), sorted.end(), first))
+          gather(mesh_.position(first, corner), first, corner_part(corner));
+      }
+  }
+  static std::uint64_t corner_key(std::uint32_t t, std::uint32_t k) { return std::uint64_t{t} << 2 | k; }
 
   Box region_box(std::uint32_t t) const {
     Box box;
     for (const std::uint32_t other : mesh_.flat_regions().triangles(mesh_.flat_regions().of(t)))
       for (const Vec3& p : mesh_.positions(other)) box.include(p);
     return box;
-  }
-
-  /// The normals around every vertex where many triangles meet and a contact can rest, once for all of them.
-  void gather_corners() {
-    constexpr std::uint8_t kMany = 16;
-    std::vector<std::uint8_t> met(mesh_.vertex_count());
-    const auto each_corner = [&](auto visit) {
-      for (std::uint32_t t = 0; t < mesh_.triangle_count(); ++t)
-        for (std::uint32_t k = 0; k < 3; ++k)
-          if (mesh_.usable(t) && mesh_.feature_corner(t, k)) visit(t, k, mesh_.vertex(t, k));
-    };
-    each_corner([&](std::uint32_t, std::uint32_t, std::uint32_t v) { met[v] += met[v] < kMany; });
-    each_corner([&](std::uint32_t t, std::uint32_t k, std::uint32_t v) {
-      if (met[v] == kMany) add_corner(t, k, corners_[v]);
-    });
-  }
-
-  /// The same for a few triangles of many, each a whole: theirs alone are met, and all around a vertex are walked to.
-  void gather_corners_here() {
-    constexpr std::uint32_t kMany = 16;
-    std::unordered_map<std::uint32_t, std::uint32_t> met;
-    for (const Entry& entry : entries_)
-      for (std::uint32_t k = 0; k < 3; ++k) {
-        if (!mesh_.feature_corner(entry.entry, k)) continue;
-        const std::uint32_t v = mesh_.vertex(entry.entry, k);
-        if (++met[v] != kMany) continue;
-        NormalSet& normals = corners_[v];
-        around_vertex(mesh_, entry.entry, k,
-                      [&](std::uint32_t other, std::uint32_t corner) { add_corner(other, corner, normals); });
-      }
-  }
-
-  void add_corner(std::uint32_t t, std::uint32_t k, NormalSet& normals) const {
-    normals.add(mesh_.normal(t, k));
-    if (mesh_.edge_kind(t, k) == EdgeKind::boundary || mesh_.edge_kind(t, (k + 2) % 3) == EdgeKind::boundary)
-      normals.add_everything();
   }
 
   /// Puts the first `count` of the triangles before the others, across the longest side of the box about their middles.
@@ -262,7 +267,8 @@ class ContactHierarchyBuilder {
     const std::uint32_t t = entry & ContactHierarchy::kTriangleBits;
     const auto part = static_cast<SearchPart>(entry >> ContactHierarchy::kPartShift);
     if (part == SearchPart::region) return region_bounds(t);
-    return is_side(part) ? side_bounds(t, side_of(part)) : triangle_bounds(t, part == SearchPart::face);
+    if (is_side(part)) return side_bounds(t, side_of(part));
+    return is_corner(part) ? corner_bounds(t, corner_of(part)) : face_bounds(t);
   }
 
   Bounds region_bounds(std::uint32_t t) const {
@@ -275,20 +281,86 @@ class ContactHierarchyBuilder {
     return bounds;
   }
 
-  /// Of an edge and its ends.
   Bounds side_bounds(std::uint32_t t, std::uint32_t k) const {
     const PnPatch patch = make_patch(mesh_, t);
     const std::array<Vec3, 4> curve = edge_points(patch, k);
     Bounds bounds;
     for (const Vec3& p : curve) bounds.box.include(p);
     NormalSet normals;
-    for (const Vec3& n : patch.normals) normals.add(n);
-    add_edge_normals(t, k, normals);
-    add_corner_normals(t, k, normals);
-    add_corner_normals(t, (k + 1) % 3, normals);
-    bounds.cone = normals.cone();
+    add_edge_normals(patch, k, normals);
+    const EdgeLink other = mesh_.across(t, k);
+    if (other.triangle != kNone) {
+      add_edge_normals(make_patch(mesh_, other.triangle), other.edge, normals);
+      bounds.cone = normals.cone();  // at a boundary they turn by half a circle
+    }
     bounds.rim = rim_of_side(curve, normals);
     return bounds;
+  }
+
+  static void add_edge_normals(const PnPatch& patch, std::uint32_t k, NormalSet& normals) {
+    constexpr ControlNormal kMiddle[3] = {n110, n011, n101};
+    for (const std::size_t n : {std::size_t{k}, std::size_t{(k + 1) % 3}, std::size_t{kMiddle[k]}})
+      normals.add(patch.normals[n]);
+  }
+
+  Bounds corner_bounds(std::uint32_t t, std::uint32_t k) const {
+    Bounds bounds;
+    bounds.box.include(mesh_.position(t, k));
+    NormalSet normals;
+    EdgesOfCorner edges;
+    around_vertex(mesh_, t, k, [&](std::uint32_t at, std::uint32_t corner) {
+      normals.add(mesh_.normal(at, corner));
+      add_edges(at, corner, edges);
+      if (mesh_.edge_kind(at, corner) == EdgeKind::boundary ||
+          mesh_.edge_kind(at, (corner + 2) % 3) == EdgeKind::boundary)
+        normals.add_everything();
+    });
+    bounds.cone = normals.cone();
+    bounds.rim = edges.rim();
+    return bounds;
+  }
+
+  /// Unit directions in which edges leave a corner, of many of them some. From a contact that rests there the finger's
+  /// centre lies ahead along none.
+  class EdgesOfCorner {
+   public:
+    void add(const Vec3& along) {
+      const double length2 = glm::dot(along, along);
+      if (count_ < edges_.size() && length2 > 0.0) edges_[count_++] = along / std::sqrt(length2);
+    }
+    /// Across the two that come nearest to a line: with a and -b within d of it the way to the centre leans into it by
+    /// the tangent of d at most.
+    AcrossRim rim() const {
+      double most2 = 0.0;
+      Vec3 along(0.0);
+      for (std::size_t i = 0; i < count_; ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+          const Vec3 apart = edges_[i] - edges_[j];
+          if (!(glm::dot(apart, apart) > most2)) continue;
+          most2 = glm::dot(apart, apart);
+          along = apart;
+        }
+      const double cosine = std::min(1.0, 0.5 * std::sqrt(most2));
+      const double tangent = cosine > 0.1 ? std::sqrt(1.0 - cosine * cosine) / cosine : 1.0;
+      return tangent < 1.0 ? AcrossRim{along / std::sqrt(most2), tangent} : AcrossRim{};
+    }
+
+   private:
+    std::array<Vec3, 16> edges_;
+    std::size_t count_ = 0;
+  };
+
+  void add_edges(std::uint32_t at, std::uint32_t corner, EdgesOfCorner& edges) const {
+    const Vec3 &p = mesh_.position(at, corner), &n = mesh_.normal(at, corner);
+    const Vec3 starting = mesh_.position(at, (corner + 1) % 3) - p;
+    if (mesh_.edge_kind(at, corner) == EdgeKind::crease) {
+      const EdgeLink other = mesh_.across(at, corner);
+      edges.add(crease_control_offset(starting, n, mesh_.normal(other.triangle, (other.edge + 1) % 3)));
+    } else {
+      edges.add(edge_control_offset(starting, n));
+    }
+    if (mesh_.edge_kind(at, (corner + 2) % 3) == EdgeKind::boundary)
+      edges.add(edge_control_offset(mesh_.position(at, (corner + 2) % 3) - p, n));
   }
 
   /// Across an edge with these control points. A fan's normal is tilt T + level e, with T the curve's tangent and e
@@ -318,46 +390,24 @@ class ContactHierarchyBuilder {
     return {};
   }
 
-  Bounds triangle_bounds(std::uint32_t t, bool face_alone) const {
+  Bounds face_bounds(std::uint32_t t) const {
     const PnPatch patch = make_patch(mesh_, t);
     Bounds bounds;
     for (std::size_t i = 0; i < 10; ++i) bounds.box.include(patch.control_point(i));
     NormalSet normals;
     for (const Vec3& n : patch.normals) normals.add(n);
+    bounds.cone = normals.cone();
     if (mesh_.interior(t)) {
       bounds.curvature = curvature_bounds(patch);
-    } else if (!face_alone) {
-      for (std::uint32_t k = 0; k < 3; ++k) {
-        add_edge_normals(t, k, normals);
-        add_corner_normals(t, k, normals);
-      }
-    }
-    bounds.cone = normals.cone();
-    if (face_alone) bounds.rim = rim_of_face(t, normals);
-    return bounds;
-  }
-
-  void add_edge_normals(std::uint32_t t, std::uint32_t k, NormalSet& normals) const {
-    if (mesh_.edge_kind(t, k) == EdgeKind::boundary) normals.add_everything();
-    if (mesh_.edge_kind(t, k) == EdgeKind::crease)
-      for (const Vec3& n : make_patch(mesh_, mesh_.across(t, k).triangle).normals) normals.add(n);
-  }
-
-  void add_corner_normals(std::uint32_t t, std::uint32_t k, NormalSet& normals) const {
-    if (!mesh_.feature_corner(t, k)) return;
-    const auto many = corners_.find(mesh_.vertex(t, k));
-    if (many != corners_.end()) {
-      normals.add(many->second);
     } else {
-      around_vertex(mesh_, t, k,
-                    [&](std::uint32_t other, std::uint32_t corner) { add_corner(other, corner, normals); });
+      bounds.rim = rim_of_face(t, normals);
     }
+    return bounds;
   }
 
   const ContactMesh& mesh_;
   ContactHierarchy& tree_;
   std::vector<Entry> entries_;
-  std::unordered_map<std::uint32_t, NormalSet> corners_;  ///< by vertex
 };
 
 ContactHierarchy ContactHierarchy::build(const ContactMesh& mesh) {

@@ -133,43 +133,29 @@ double vertex_margin(ContactContext& context, const FingerCore& core, std::uint3
   return margin;
 }
 
+double edge_margin(ContactContext& context, const FingerCore& core, std::uint32_t t, std::uint32_t k,
+                   const RankBound& bound, double enough_m, bool glance, int& tests) {
+  const ContactMesh& mesh = context.cache.mesh();
+  if (mesh.edge_kind(t, k) == EdgeKind::boundary) {  // which has any normal
+    Box box;
+    for (const Vec3& p : edge_points(context.cache.patch(t, context.settings.normal_form), k)) box.include(p);
+    return margin_by_rank(core, box.centre(), 0.5 * box.size(), bound);
+  }
+  const CreaseNet crease = crease_net(context.cache, context.settings.normal_form, t, k);
+  if (is_hollow(crease)) return std::numeric_limits<double>::max();
+  return margin_of_crease(core, crease, bound, enough_m, glance, tests);
+}
+
 }  // namespace
 
-FeatureExclusion exclude_features_by_core(ContactContext& context, const FingerCore& core,
-                                          const TriangleFeatures& features, const RankBound& bound, double enough_m,
-                                          const FeatureMemory* memory, bool glance) {
-  const ContactMesh& mesh = context.cache.mesh();
-  const std::uint32_t t = features.triangle;
-  const double rounding = rounding_of_margin(core.centre(), mesh.position(t, 0));
+FeatureExclusion exclude_feature_by_core(ContactContext& context, const FingerCore& core,
+                                         const TriangleFeature& feature, const RankBound& bound, double enough_m,
+                                         bool glance) {
+  const std::uint32_t t = feature.triangle, k = feature.number;
   FeatureExclusion result;
-  result.margin_m = std::numeric_limits<double>::max();
-  const auto ask = [&](std::uint64_t key, auto margin) {
-    if (memory && memory->knows(key)) return;
-    result.asked[result.asked_count++] = key;
-    result.margin_m = std::min(result.margin_m, certain_margin(margin(result.tests), rounding));
-    if (!(result.margin_m > 0.0)) result.unproved = key;
-  };
-  for (std::uint32_t k = 0; k < 3 && result.margin_m > 0.0; ++k) {
-    if (!features.has_side(k) || mesh.edge_kind(t, k) == EdgeKind::smooth) continue;
-    ask(edge_key(mesh, t, k), [&](int& tests) {
-      if (mesh.edge_kind(t, k) == EdgeKind::boundary) {  // which has any normal
-        Box box;
-        for (const Vec3& p : edge_points(context.cache.patch(t, context.settings.normal_form), k)) box.include(p);
-        return margin_by_rank(core, box.centre(), 0.5 * box.size(), bound);
-      }
-      const CreaseNet crease = crease_net(context.cache, context.settings.normal_form, t, k);
-      if (is_hollow(crease)) return std::numeric_limits<double>::max();
-      return margin_of_crease(core, crease, bound, enough_m, glance, tests);
-    });
-  }
-  for (std::uint32_t k = 0; k < 3 && result.margin_m > 0.0; ++k)
-    if (features.has_corner(k) && mesh.feature_corner(t, k))
-      ask(vertex_key(mesh, t, k), [&](int& tests) {
-        int looks = 0;
-        const double margin = vertex_margin(context, core, t, k, bound, enough_m, glance, looks);
-        tests += looks;
-        return margin;
-      });
+  const double margin = feature.is_corner ? vertex_margin(context, core, t, k, bound, enough_m, glance, result.tests)
+                                          : edge_margin(context, core, t, k, bound, enough_m, glance, result.tests);
+  result.margin_m = certain_margin(margin, rounding_of_margin(core.centre(), context.cache.mesh().position(t, 0)));
   return result;
 }
 

@@ -2,13 +2,10 @@
 
 #include "core/base/tolerances.h"
 #include "core/contact/contact_rank.h"
-#include "core/contact/nearest_triangles.h"
 #include "core/contact/prove/certain_margin.h"
-#include "core/contact/prove/core_feature_proof.h"
 #include "core/contact/prove/depth_margin.h"
 #include "core/contact/prove/linear_core.h"
 #include "core/contact/prove/rank_place.h"
-#include "core/mesh/vertex_ring.h"
 
 #include <algorithm>
 #include <array>
@@ -206,19 +203,6 @@ PatchExclusion exclude_pieces(const ContactContext& context, const PnPatch& patc
   return result;
 }
 
-/// A solve had best start where the core's support for the triangle's middle normal is nearest.
-PatchExclusion no_proof(const ContactContext& context, const FingerCore& core, std::uint32_t t) {
-  const ContactMesh& mesh = context.cache.mesh();
-  const auto n = mesh.normals(t);
-  const Vec3 sum = n[0] + n[1] + n[2];
-  const bool leans = glm::dot(sum, sum) > 1e-6;
-  const NearestHit hit = closest_on_triangle(mesh, t, leans ? core.support(unit(sum)).point : core.centre());
-  PatchExclusion nothing;
-  nothing.u = hit.u;
-  nothing.v = hit.v;
-  return nothing;
-}
-
 }  // namespace
 
 PatchExclusion exclude_face_by_core(ContactContext& context, const FingerCore& core, std::uint32_t t,
@@ -226,44 +210,11 @@ PatchExclusion exclude_face_by_core(ContactContext& context, const FingerCore& c
   return exclude_pieces(context, context.cache.patch(t, context.settings.normal_form), core, bound, enough_m);
 }
 
-static void remember(FeatureMemory* memory, const FeatureExclusion& features) {
-  if (!memory) return;
-  for (const std::uint64_t key : std::span(features.asked).first(features.asked_count)) memory->add(key);
-}
-
-PatchExclusion exclude_by_core(ContactContext& context, const FingerCore& core, std::uint32_t t, const RankBound& bound,
-                               double enough_m, FeatureMemory* memory) {
-  const ContactMesh& mesh = context.cache.mesh();
-  if (mesh.interior(t)) return exclude_face_by_core(context, core, t, bound, enough_m);
-  const FeatureExclusion features = exclude_features_by_core(context, core, {t}, bound, enough_m, memory);
-  if (!(features.margin_m > 0.0)) {
-    PatchExclusion nothing = no_proof(context, core, t);
-    nothing.feature = features.unproved;
-    nothing.also_inside = boundary_with_key(mesh, t, features.unproved).has_value();
-    nothing.inside_u = nothing.u;
-    nothing.inside_v = nothing.v;
-    nothing.tests = features.tests;
-    return nothing;
-  }
-  PatchExclusion proof = exclude_face_by_core(context, core, t, bound, enough_m);
-  if (!proof.possible && proof.margin_m > 0.0) remember(memory, features);
-  proof.margin_m = std::min(proof.margin_m, features.margin_m);
-  proof.tests += features.tests;
-  return proof;
-}
-
 bool core_excludes_at_a_glance(ContactContext& context, const FingerCore& core, std::uint32_t t, const RankBound& bound,
-                               double enough_m, FeatureMemory* memory) {
-  FeatureExclusion features;
-  if (!context.cache.mesh().interior(t)) {
-    features = exclude_features_by_core(context, core, {t}, bound, enough_m, memory, true);
-    if (features.margin_m < enough_m) return false;
-  }
+                               double enough_m) {
   const PatchPiece whole(context.cache.patch(t, context.settings.normal_form));
   const PieceLook look = look_at_piece(whole, core, bound, enough_m, false);
-  if (look.proof.possible || look.proof.margin_m < enough_m) return false;
-  remember(memory, features);
-  return true;
+  return !look.proof.possible && look.proof.margin_m >= enough_m;
 }
 
 bool can_ask_steady(const FingerCore& core, double rank_m) {

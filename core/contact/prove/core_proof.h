@@ -9,25 +9,19 @@
 #include "core/contact/contact_rank.h"
 #include "core/contact/context.h"
 #include "core/contact/prove/face_proof.h"
-#include "core/contact/prove/feature_proof.h"
 #include "core/finger/finger_core.h"
 
 namespace tangent {
 
-/// exclude_triangle for them. Margins count as gone_m does. Of a possible contact height_m is the rank
-/// (contact_rank.h); 0 where it is not known. Creases and vertices that `memory` knows are left out, and where all is
-/// excluded it then knows the others: their margins are within that of t.
-PatchExclusion exclude_by_core(ContactContext& context, const FingerCore& core, std::uint32_t t, const RankBound& bound,
-                               double enough_m, FeatureMemory* memory = nullptr);
-
-/// The same for the face alone.
+/// Proof that the face of triangle t holds no contact of a rank under `bound`. Margins count as gone_m does. Of a
+/// possible contact height_m is the rank (contact_rank.h); 0 where it is not known.
 PatchExclusion exclude_face_by_core(ContactContext& context, const FingerCore& core, std::uint32_t t,
                                     const RankBound& bound, double enough_m);
 
-/// Whether a core within `enough_m` of that one has no contact of a rank under `bound` on triangle t, as far as a
-/// glance tells: without bisection.
+/// Whether a core within `enough_m` of that one has no contact of a rank under `bound` on the face of triangle
+/// t, as far as a glance tells: without bisection.
 bool core_excludes_at_a_glance(ContactContext& context, const FingerCore& core, std::uint32_t t, const RankBound& bound,
-                               double enough_m, FeatureMemory* memory);
+                               double enough_m);
 
 /// Whether ground that is steady for this finger may be asked only for what it holds now: contacts deeper than the
 /// finger's sharpest radius may fold anywhere, but one that comes up that deep was never entered (decide.h).

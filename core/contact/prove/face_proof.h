@@ -26,14 +26,8 @@ struct PatchExclusion {
   double u = 1.0 / 3.0, v = 1.0 / 3.0;
   Vec3 point{0.0};        ///< of the patch there
   double height_m = 0.0;  ///< 0: not known, nor is the point
-  /// (u, v) is a place to start from for a contact on the triangle's edges; one inside the face may be near these.
-  bool also_inside = false;
-  double inside_u = 0.0, inside_v = 0.0;
-  /// Of fingers that are not round: the edge or vertex of which nothing is proved (FeatureMemory).
-  static constexpr std::uint64_t kNoFeature = ~std::uint64_t{0};
-  std::uint64_t feature = kNoFeature;
-  bool unsure = false;  ///< besides that contact there may be others, of which nothing is known
-  int tests = 0;        ///< of the whole and of parts of it, that it took
+  bool unsure = false;    ///< besides that contact there may be others, of which nothing is known
+  int tests = 0;          ///< of the whole and of parts of it, that it took
 
   /// A stable contact may be there.
   void hold(const Vec2& uv) {
@@ -81,5 +75,8 @@ PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double 
 /// (c - P) x N stays clear of zero, after as much room for the patch's bending as that triangle is wide. 0: look
 /// closer.
 double corner_exclusion(const ContactMesh& mesh, std::uint32_t t, const Vec3& centre);
+
+/// Whether the corners tell that no centre nearer than `enough_m` has a contact on the face.
+bool corners_exclude(const ContactMesh& mesh, std::uint32_t t, NormalForm form, const Vec3& centre, double enough_m);
 
 }  // namespace tangent

@@ -13,7 +13,6 @@ namespace {
 
 constexpr int kCurveHalvings = 3;
 constexpr int kTestsOfEdge = 4, kFacesOfTest = 2;  // what a close look at an edge costs, and at the faces of a vertex
-constexpr int kManyFaces = 32;                     // around a vertex: to be asked for once, not by each of them
 
 /// An edge of a triangle by its curve's control points, local coordinates.
 struct EdgeEnds {
@@ -82,8 +81,10 @@ double beyond_ends(const EdgeEnds& e, const Vec3& centre) {
 }
 
 /// Lower bound of the distance from c to a cubic with these control points: the nearest of them, seen from c towards
-/// its chord. Halved while that is under `enough` and may come to be over `known`, at most `halvings` times.
+/// its chord. Halved while that is under `enough` and may come to be over `known` by much more, at most `halvings`
+/// times.
 double curve_distance(const std::array<Vec3, 4>& b, const Vec3& c, double known, double enough, int halvings) {
+  constexpr double kLittle = 0.1;  // of what is between
   const Vec3 chord = b[3] - b[0], d = c - b[0];
   const double length2 = glm::dot(chord, chord);
   const double along = length2 > 0.0 ? std::clamp(glm::dot(d, chord) / length2, 0.0, 1.0) : 0.0;
@@ -93,7 +94,12 @@ double curve_distance(const std::array<Vec3, 4>& b, const Vec3& c, double known,
                                   std::min(glm::dot(c - b[2], away), glm::dot(from_end, away)));
   const double least = off > 0.0 ? nearest / off : 0.0;
   if (least >= enough || halvings == 0) return least;
-  if (std::min(glm::dot(d, d), glm::dot(from_end, from_end)) <= known * known) return least;
+  const double back = 1.0 - along;
+  const Vec3 there =
+      c - (back * back * (back * b[0] + 3.0 * along * b[1]) + along * along * (3.0 * back * b[2] + along * b[3]));
+  const double most =
+      std::sqrt(std::min(glm::dot(there, there), std::min(glm::dot(d, d), glm::dot(from_end, from_end))));
+  if (most <= known || (most < enough && most - least <= kLittle * (most - known))) return least;
   const Vec3 ab = 0.5 * (b[0] + b[1]), bc = 0.5 * (b[1] + b[2]), cd = 0.5 * (b[2] + b[3]);
   const Vec3 abc = 0.5 * (ab + bc), bcd = 0.5 * (bc + cd), middle = 0.5 * (abc + bcd);
   const double first = curve_distance({b[0], ab, abc, middle}, c, known, enough, halvings - 1);
@@ -108,46 +114,6 @@ double edge_distance(const ContactMesh& mesh, std::uint32_t t, std::uint32_t edg
   const double length2 = glm::dot(chord, chord);
   const double along = length2 > 0.0 ? std::clamp(glm::dot(d, chord) / length2, 0.0, 1.0) : 0.0;
   return glm::distance(d, along * chord) - std::sqrt(length2) / 3.0;
-}
-
-/// How the curve of an edge starts from an end of it, corner k or the next, as its patches have it.
-Vec3 start_of_curve(const ContactMesh& mesh, std::uint32_t t, std::uint32_t k, bool from_first) {
-  const std::uint32_t j = (k + 1) % 3, from = from_first ? k : j, to = from_first ? j : k;
-  const Vec3 chord = mesh.position(t, to) - mesh.position(t, from);
-  const EdgeLink other = mesh.across(t, k);
-  if (other.triangle == kNone) return edge_control_offset(chord, mesh.normal(t, from));
-  const std::uint32_t there = from_first ? (other.edge + 1) % 3 : other.edge;
-  return crease_control_offset(chord, mesh.normal(t, from), mesh.normal(other.triangle, there));
-}
-
-/// A first look at an edge, without its patches: how far c lies beyond an end of it, seen along its chord, less what
-/// the curve and the normals lean there. Not over 0: look closer.
-double beyond_chord(const ContactMesh& mesh, std::uint32_t t, std::uint32_t k, const Vec3& c) {
-  const Vec3 &p = mesh.position(t, k), &q = mesh.position(t, (k + 1) % 3);
-  const double length = glm::distance(p, q);
-  const Vec3 along = (q - p) / length;
-  double lean = 0.0;
-  const auto add_normals = [&](std::uint32_t at, std::uint32_t edge) {
-    const Vec3 &a = mesh.normal(at, edge), &b = mesh.normal(at, (edge + 1) % 3);
-    // The middle control normal is their sum, mirrored and made unit.
-    lean =
-        std::max({lean, std::abs(glm::dot(a, along)), std::abs(glm::dot(b, along)), glm::dot(a, b) > 0.5 ? 0.0 : 1.0});
-  };
-  add_normals(t, k);
-  const EdgeLink other = mesh.across(t, k);
-  if (other.triangle != kNone) add_normals(other.triangle, other.edge);
-  const Vec3 from_p = start_of_curve(mesh, t, k, true), from_q = start_of_curve(mesh, t, k, false);
-  const double turn =
-      6.0 / length * std::max(glm::distance(from_p, (q - p) / 3.0), glm::distance(from_q, (p - q) / 3.0));
-  if (turn > 0.1 || lean > 0.1) return 0.0;
-  const double leans = 1.5 * lean + 1.2 * turn;
-  double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
-  for (const Vec3& s : {p, p + from_p, q + from_q, q}) {
-    low = std::min(low, glm::dot(c - s, along));
-    high = std::max(high, glm::dot(c - s, along));
-  }
-  const double farthest = glm::distance(c, p) + 2.0 * length;
-  return (std::max(low, -high) - leans * farthest) / (1.0 + leans);
 }
 
 /// How far c lies over the triangle rather than over the edge's fan, seen from every place of the edge: with T = S' and
@@ -205,20 +171,6 @@ static double vertex_pull(const ContactMesh& mesh, std::uint32_t t, std::uint32_
   return strongest;
 }
 
-std::uint64_t edge_key(const ContactMesh& mesh, std::uint32_t t, std::uint32_t k) {
-  const EdgeLink other = mesh.across(t, k);
-  return other.triangle < t ? std::uint64_t{other.triangle} << 2 | other.edge : std::uint64_t{t} << 2 | k;
-}
-std::uint64_t vertex_key(const ContactMesh& mesh, std::uint32_t t, std::uint32_t k) {
-  return std::uint64_t{mesh.vertex(t, k)} << 2 | 3u;
-}
-
-std::optional<std::uint32_t> boundary_with_key(const ContactMesh& mesh, std::uint32_t t, std::uint64_t key) {
-  for (std::uint32_t k = 0; k < 3; ++k)
-    if (mesh.edge_kind(t, k) == EdgeKind::boundary && edge_key(mesh, t, k) == key) return k;
-  return std::nullopt;
-}
-
 namespace {
 
 /// What exclude_feature_contacts is asked for.
@@ -230,15 +182,13 @@ struct Question {
   const Vec3& centre;
   const RankBound& bound;
   double enough_m, rounding_m;
-  bool enough_or_none;  ///< a margin under enough_m is worth nothing
-  FeatureMemory* memory;
+  bool glance;  ///< a margin under enough_m is worth nothing
 };
 
-double edge_margin(const Question& q, std::uint32_t k, bool alone) {
+double edge_margin(const Question& q, std::uint32_t k, int& tests) {
   double safe = q.bound.way_to(edge_distance(q.mesh, q.t, k, q.centre));
-  if (alone) safe = std::max(safe, beyond_chord(q.mesh, q.t, k, q.centre));
   if (safe > 0.0 && safe >= q.enough_m) return safe;
-  if (q.memory) q.memory->count(kTestsOfEdge);
+  tests = kTestsOfEdge;
   const PnPatch& patch = q.cache.patch(q.t, q.form);
   const std::array<Vec3, 4> curve = edge_curve(q.mesh, patch, q.t, k);
   const double wanted = q.enough_m + q.rounding_m;
@@ -253,59 +203,35 @@ double edge_margin(const Question& q, std::uint32_t k, bool alone) {
     safe = std::max(safe, over_face(edge_ends(q.mesh, beside, other.triangle, other.edge), q.centre));
   }
   if (safe < wanted) {
-    const double known = q.bound.after(std::max(0.0, q.enough_or_none ? q.enough_m : safe));
+    const double known = q.bound.after(std::max(0.0, q.glance ? wanted : safe));
     const double distance = curve_distance(curve, q.centre, known, q.bound.after(wanted), kCurveHalvings);
     safe = std::max(safe, q.bound.way_to(distance));
   }
   return certain_margin(safe, q.rounding_m);
 }
 
-/// `side`: of this edge alone, or TriangleFeatures::kAll.
-double vertex_margin(const Question& q, std::uint32_t k, std::uint32_t side, int& faces) {
+double vertex_margin(const Question& q, std::uint32_t k, int& tests) {
   const Vec3 d = q.centre - q.mesh.position(q.t, k);
   double safe = q.bound.way_to(std::sqrt(glm::dot(d, d)));
-  if (side != TriangleFeatures::kAll) {  // as a first look
-    const Vec3 start = start_of_curve(q.mesh, q.t, side, k == side);
-    safe = std::max(safe, glm::dot(d, start) / std::sqrt(glm::dot(start, start)));
-  }
+  int faces = 0;
   if (safe < q.enough_m || !(safe > 0.0))
     safe = std::max(safe, vertex_pull(q.mesh, q.t, k, q.centre, q.enough_m + q.rounding_m, faces));
+  tests = faces / kFacesOfTest;
   return certain_margin(safe, q.rounding_m);
 }
 
 }  // namespace
 
-double exclude_feature_contacts(PatchCache& cache, const TriangleFeatures& features, NormalForm form,
-                                const Vec3& centre, const RankBound& bound, double enough_m, FeatureMemory* memory,
-                                bool enough_or_none) {
+FeatureExclusion exclude_feature_contacts(PatchCache& cache, const TriangleFeature& feature, NormalForm form,
+                                          const Vec3& centre, const RankBound& bound, double enough_m, bool glance) {
   const ContactMesh& mesh = cache.mesh();
-  const std::uint32_t t = features.triangle;
-  const Question question{cache,          mesh,  t,        form,
-                          centre,         bound, enough_m, rounding_of_margin(centre, mesh.position(t, 0)),
-                          enough_or_none, memory};
-  double margin = std::numeric_limits<double>::max();
-  for (std::uint32_t k = 0; k < 3; ++k) {
-    if (!features.has_side(k) || mesh.edge_kind(t, k) == EdgeKind::smooth ||
-        (memory && memory->knows(edge_key(mesh, t, k))))
-      continue;
-    const double safe = edge_margin(question, k, features.side != TriangleFeatures::kAll);
-    margin = std::min(margin, safe);
-    if (memory && safe > 0.0) memory->add(edge_key(mesh, t, k));
-    if (enough_or_none && safe < enough_m) return 0.0;
-  }
-  for (std::uint32_t k = 0; k < 3; ++k) {
-    if (!features.has_corner(k) || !mesh.feature_corner(t, k) || (memory && memory->knows(vertex_key(mesh, t, k))))
-      continue;
-    int faces = 0;
-    const double safe = vertex_margin(question, k, features.side, faces);
-    margin = std::min(margin, safe);
-    if (memory) memory->count(faces / kFacesOfTest);
-    if (enough_or_none && safe < enough_m) return 0.0;
-    if (!memory) continue;
-    if (faces > kManyFaces) memory->add_dear(vertex_key(mesh, t, k), safe > 0.0);
-    if (faces <= kManyFaces && safe > 0.0) memory->add(vertex_key(mesh, t, k));
-  }
-  return margin;
+  const std::uint32_t t = feature.triangle;
+  const Question question{
+      cache, mesh, t, form, centre, bound, enough_m, rounding_of_margin(centre, mesh.position(t, 0)), glance};
+  FeatureExclusion result;
+  result.margin_m = feature.is_corner ? vertex_margin(question, feature.number, result.tests)
+                                      : edge_margin(question, feature.number, result.tests);
+  return result;
 }
 
 }  // namespace tangent

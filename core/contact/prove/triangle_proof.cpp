@@ -1,26 +1,18 @@
 #include "core/contact/prove/triangle_proof.h"
 
 #include "core/contact/contact_rank.h"
-#include "core/contact/nearest_triangles.h"
 #include "core/contact/prove/certain_margin.h"
 #include "core/contact/prove/core_feature_proof.h"
 #include "core/contact/prove/core_proof.h"
+#include "core/contact/prove/feature_proof.h"
 #include "core/finger/plane_contact.h"
+#include "core/mesh/vertex_ring.h"
 
 #include <algorithm>
 #include <limits>
 
 namespace tangent {
 namespace {
-
-/// Nothing proved; a solve had best start at the triangle's closest point.
-PatchExclusion unknown(const ContactContext& context, std::uint32_t t) {
-  const NearestHit hit = closest_on_triangle(context.cache.mesh(), t, context.pose.position);
-  PatchExclusion nothing;
-  nothing.u = hit.u;
-  nothing.v = hit.v;
-  return nothing;
-}
 
 /// A first look at a face with one normal all over, such as a sliver of a flat cap: a contact lies straight under the
 /// centre, so it is excluded by how far that is beside the triangle, less what creases and boundaries may bulge. 0:
@@ -84,82 +76,91 @@ PatchExclusion exclude_region(ContactContext& context, std::uint32_t& t, const R
   return proof;
 }
 
-PatchExclusion exclude_side(ContactContext& context, const PartOfTriangle& part, const RankBound& bound,
-                            double enough_m, FeatureMemory* memory) {
-  PatchExclusion proof;
-  const TriangleFeatures side{part.triangle, side_of(part.part)};
-  proof.margin_m = is_round(context.finger)
-                       ? exclude_feature_contacts(context.cache, side, context.settings.normal_form,
-                                                  context.pose.position, bound, enough_m, memory)
-                       : exclude_features_by_core(context, *context.core, side, bound, enough_m).margin_m;
-  if (proof.margin_m > 0.0) proof.possible = false;
-  return proof;
+/// How far a point is behind all faces around a vertex that is on no rim: so far off no contact on it is stable. Not
+/// over 0: nothing is known.
+double behind_corner(const ContactMesh& mesh, std::uint32_t t, std::uint32_t corner, const Vec3& point) {
+  if (mesh.crowded_vertex(mesh.vertex(t, corner))) return 0.0;
+  const Vec3 d = point - mesh.position(t, corner);
+  double front = std::numeric_limits<double>::lowest();
+  bool rim = false;
+  around_vertex(mesh, t, corner, [&](std::uint32_t at, std::uint32_t k) {
+    front = std::max(front, glm::dot(d, mesh.normal(at, k)));
+    rim = rim || mesh.edge_kind(at, k) == EdgeKind::boundary;
+  });
+  return rim ? 0.0 : -front;
 }
 
-/// Whether the corners of a face tell as much.
-bool corners_exclude(const ContactMesh& mesh, std::uint32_t t, const Vec3& centre, double enough_m) {
-  return corner_exclusion(mesh, t, centre) >= enough_m || even_exclusion(mesh, t, centre) >= enough_m;
+FeatureExclusion exclude_feature(ContactContext& context, const FingerCore* core, const PartOfTriangle& part,
+                                 const RankBound& bound, double enough_m, bool glance) {
+  const bool side = is_side(part.part);
+  const TriangleFeature feature{part.triangle, side ? side_of(part.part) : corner_of(part.part), !side};
+  const Vec3& centre = core ? core->centre() : context.pose.position;
+  FeatureExclusion result = core ? exclude_feature_by_core(context, *core, feature, bound, enough_m, glance)
+                                 : exclude_feature_contacts(context.cache, feature, context.settings.normal_form,
+                                                            centre, bound, enough_m, glance);
+  if (!side && !(result.margin_m > 0.0))
+    result.margin_m = std::max(0.0, behind_corner(context.cache.mesh(), feature.triangle, feature.number, centre));
+  return result;
+}
+
+/// On a side, where it is nearest to that point, but away from its ends: from there a solve leaves it at once.
+SurfacePlace start_on_side(const ContactMesh& mesh, std::uint32_t t, std::uint32_t k, const Vec3& point) {
+  constexpr double kFromEnd = 0.125;
+  const Vec3 &p = mesh.position(t, k), chord = mesh.position(t, (k + 1) % 3) - p;
+  const double along = glm::dot(point - p, chord) / glm::dot(chord, chord);
+  return place_on_edge(t, k, std::clamp(along, kFromEnd, 1.0 - kFromEnd));
+}
+
+/// Where the finger touches a crease first: of one that is not round that is its support for the normals' middle.
+Vec3 place_towards_side(const ContactContext& context, std::uint32_t t, std::uint32_t k) {
+  const ContactMesh& mesh = context.cache.mesh();
+  const EdgeLink other = mesh.across(t, k);
+  if (is_round(context.finger) || other.triangle == kNone) return context.pose.position;
+  const std::uint32_t l = other.edge;
+  const Vec3 sum = mesh.normal(t, k) + mesh.normal(t, (k + 1) % 3) + mesh.normal(other.triangle, l) +
+                   mesh.normal(other.triangle, (l + 1) % 3);
+  return glm::dot(sum, sum) > 1e-6 ? context.core->support(unit(sum)).point : context.pose.position;
 }
 
 }  // namespace
 
-PatchExclusion exclude_part(ContactContext& context, PartOfTriangle& part, const RankBound& bound, double enough_m,
-                            FeatureMemory* memory, bool face) {
-  if (part.part == SearchPart::whole) return exclude_triangle(context, part.triangle, bound, enough_m, memory, face);
+PatchExclusion exclude_part(ContactContext& context, PartOfTriangle& part, const RankBound& bound, double enough_m) {
   if (part.part == SearchPart::region) return exclude_region(context, part.triangle, bound);
-  if (is_side(part.part)) return exclude_side(context, part, bound, enough_m, memory);
-  return is_round(context.finger) ? exclude_face(context, part.triangle, bound, enough_m)
-                                  : exclude_face_by_core(context, *context.core, part.triangle, bound, enough_m);
-}
-
-/// On a side, where it is nearest to the finger's centre.
-static SurfacePlace start_on_side(const ContactContext& context, std::uint32_t t, std::uint32_t k) {
-  const ContactMesh& mesh = context.cache.mesh();
-  const Vec3 &p = mesh.position(t, k), chord = mesh.position(t, (k + 1) % 3) - p;
-  const double along = glm::dot(context.pose.position - p, chord) / glm::dot(chord, chord);
-  return place_on_edge(t, k, std::clamp(along, 0.0, 1.0));
+  if (part.part == SearchPart::face)
+    return is_round(context.finger) ? exclude_face(context, part.triangle, bound, enough_m)
+                                    : exclude_face_by_core(context, *context.core, part.triangle, bound, enough_m);
+  const FeatureExclusion feature = exclude_feature(context, context.core, part, bound, enough_m, false);
+  PatchExclusion proof;
+  proof.margin_m = feature.margin_m;
+  proof.tests = feature.tests;
+  if (proof.margin_m > 0.0) proof.possible = false;
+  return proof;
 }
 
 SurfacePlace start_on(const ContactContext& context, const PartOfTriangle& part, const PatchExclusion& proof) {
-  if (is_side(part.part)) return start_on_side(context, part.triangle, side_of(part.part));
-  const std::optional<std::uint32_t> boundary = boundary_with_key(context.cache.mesh(), part.triangle, proof.feature);
-  if (boundary) return start_on_side(context, part.triangle, *boundary);
-  return place_on_face(part.triangle, proof.u, std::min(proof.v, 1.0 - proof.u));
-}
-
-GlanceExcludes glance_at(ContactContext& context, std::uint32_t t, const RankBound& bound, double enough_m,
-                         FeatureMemory* memory) {
-  const ContactMesh& mesh = context.cache.mesh();
-  const Vec3& centre = context.pose.position;
-  const NormalForm form = context.settings.normal_form;
-  if (!corners_exclude(mesh, t, centre, enough_m) &&
-      !excludes_at_a_glance(context.cache.patch(t, form), centre, bound, enough_m))
-    return GlanceExcludes::nothing;
-  if (mesh.interior(t)) return GlanceExcludes::all;
-  const double features = exclude_feature_contacts(context.cache, {t}, form, centre, bound, enough_m, memory, true);
-  return features >= enough_m ? GlanceExcludes::all : GlanceExcludes::face;
-}
-
-PatchExclusion exclude_triangle(ContactContext& context, std::uint32_t t, const RankBound& bound, double enough_m,
-                                FeatureMemory* memory, bool face) {
-  const ContactMesh& mesh = context.cache.mesh();
-  if (!is_round(context.finger)) return exclude_by_core(context, *context.core, t, bound, enough_m, memory);
-  PatchExclusion proof;
-  proof.margin_m = std::numeric_limits<double>::max();
-  proof.possible = false;
-  if (face) proof = exclude_face(context, t, bound, enough_m);
-  if (mesh.interior(t)) return proof;
-  const double features = exclude_feature_contacts(context.cache, {t}, context.settings.normal_form,
-                                                   context.pose.position, bound, enough_m, memory);
-  if (features <= 0.0) {
-    PatchExclusion nothing = unknown(context, t);
-    nothing.also_inside = proof.possible && proof.height_m != 0.0;
-    nothing.inside_u = proof.u;
-    nothing.inside_v = proof.v;
-    return nothing;
+  const std::uint32_t t = part.triangle;
+  if (is_side(part.part)) {
+    const std::uint32_t k = side_of(part.part);
+    return start_on_side(context.cache.mesh(), t, k, place_towards_side(context, t, k));
   }
-  proof.margin_m = std::min(proof.margin_m, features);
-  return proof;
+  if (is_corner(part.part)) return place_on_vertex(t, corner_of(part.part));
+  return place_on_face(t, proof.u, std::min(proof.v, 1.0 - proof.u));
+}
+
+bool excludes_at_a_glance(ContactContext& context, const FingerCore* core, const PartOfTriangle& part,
+                          const RankBound& bound, double enough_m, int& tests) {
+  if (part.part != SearchPart::face) {
+    const FeatureExclusion feature = exclude_feature(context, core, part, bound, enough_m, true);
+    tests += feature.tests;
+    return feature.margin_m >= enough_m;
+  }
+  if (core) return core_excludes_at_a_glance(context, *core, part.triangle, bound, enough_m);
+  const Vec3& centre = context.pose.position;
+  const ContactMesh& mesh = context.cache.mesh();
+  const NormalForm form = context.settings.normal_form;
+  return corners_exclude(mesh, part.triangle, form, centre, enough_m) ||
+         even_exclusion(mesh, part.triangle, centre) >= enough_m ||
+         excludes_at_a_glance(context.cache.patch(part.triangle, form), centre, bound, enough_m);
 }
 
 }  // namespace tangent

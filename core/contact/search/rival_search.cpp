@@ -166,15 +166,12 @@ SolverSettings RivalSearch::robust(SolverSettings settings) {
 }
 
 WatchedTriangle RivalSearch::watched_triangle(const PartOfTriangle& part, const Look& look) {
-  const std::uint32_t side = is_side(part.part) ? 1 + side_of(part.part) : 0;
-  return {part.triangle & 0x1FFFFFFFu, side & 3u, look.holds_rival, static_cast<float>(look.margin_m)};
+  return {part.triangle & 0xFFFFFFFu, static_cast<std::uint32_t>(part.part) & 7u, look.holds_rival,
+          static_cast<float>(look.margin_m)};
 }
 
-PartOfTriangle RivalSearch::part_of(const WatchedTriangle& watched) const {
-  if (watched.part > 0) return {watched.triangle, static_cast<SearchPart>(std::uint32_t{watched.part})};
-  const FlatRegions& flat = context_.cache.mesh().flat_regions();
-  if (!flat.in_parts(watched.triangle)) return {watched.triangle};
-  return {watched.triangle, flat.of(watched.triangle) == kNone ? SearchPart::face : SearchPart::region};
+PartOfTriangle RivalSearch::part_of(const WatchedTriangle& watched) {
+  return {watched.triangle, static_cast<SearchPart>(std::uint32_t{watched.part})};
 }
 
 double RivalSearch::watch(Clearance& clearance, const PartOfTriangle& part, const Look& look) {
@@ -263,45 +260,49 @@ bool RivalSearch::continues_tracked_plane(std::uint32_t t) const {
   return true;
 }
 
-bool RivalSearch::holds_known(const PartOfTriangle& part) const {
+bool RivalSearch::holds_known(const PartOfTriangle& part, const KnownContact& known) const {
   const ContactMesh& mesh = context_.cache.mesh();
-  const auto holds = [&](const KnownContact& known) {
-    if (part.part == SearchPart::region)
-      return known.feature == Feature::face &&
-             mesh.flat_regions().of(known.triangle) == mesh.flat_regions().of(part.triangle);
-    if (!is_side(part.part)) return false;
+  const std::uint32_t t = part.triangle;
+  if (part.part == SearchPart::region)
+    return known.feature == Feature::face && mesh.flat_regions().of(known.triangle) == mesh.flat_regions().of(t);
+  if (known.feature == Feature::edge && is_side(part.part)) {
     const std::uint32_t k = side_of(part.part);
-    if (known.feature == Feature::edge) {
-      const EdgeLink other = mesh.across(part.triangle, k);
-      return (known.triangle == part.triangle && known.side == k) ||
-             (known.triangle == other.triangle && known.side == other.edge);
-    }
-    if (known.feature != Feature::vertex) return false;
-    const std::uint32_t vertex = mesh.vertex(known.triangle, known.side);
-    return mesh.vertex(part.triangle, k) == vertex || mesh.vertex(part.triangle, (k + 1) % 3) == vertex;
-  };
-  return std::any_of(known_.begin(), known_.begin() + static_cast<std::ptrdiff_t>(known_count_), holds);
+    const EdgeLink other = mesh.across(t, k);
+    return (known.triangle == t && known.side == k) || (known.triangle == other.triangle && known.side == other.edge);
+  }
+  if (known.feature != Feature::vertex || part.part == SearchPart::face) return false;
+  const std::uint32_t vertex = mesh.vertex(known.triangle, known.side);
+  if (is_corner(part.part)) return mesh.vertex(t, corner_of(part.part)) == vertex;
+  const std::uint32_t k = side_of(part.part);
+  return mesh.vertex(t, k) == vertex || mesh.vertex(t, (k + 1) % 3) == vertex;
+}
+
+bool RivalSearch::is_slope_of(std::size_t i, const PartOfTriangle& part, double margin_m) {
+  if (part.part == SearchPart::face) return leads_to(i, part.triangle, margin_m);
+  const KnownContact& known = known_[i];
+  if (holds_known(part, known)) return true;
+  const ContactMesh& mesh = context_.cache.mesh();
+  if (is_side(part.part))
+    return known.triangle == part.triangle || known.triangle == mesh.across(part.triangle, side_of(part.part)).triangle;
+  if (part.part == SearchPart::region) return false;
+  const std::uint32_t vertex = mesh.vertex(part.triangle, corner_of(part.part));
+  return mesh.vertex(known.triangle, 0) == vertex || mesh.vertex(known.triangle, 1) == vertex ||
+         mesh.vertex(known.triangle, 2) == vertex;
 }
 
 Look RivalSearch::look_at(PartOfTriangle part, double enough_m, const RankBound& up_to, RivalResult& result) {
   const std::uint32_t t = part.triangle;
-  if (part.part != SearchPart::whole && holds_known(part))
-    return part.part == SearchPart::region ? Look{} : own_slope(enough_m);
-  if (!core_ && part.part == SearchPart::whole && continues_tracked_plane(t)) {
-    const double features = exclude_feature_contacts(context_.cache, {t}, settings_.normal_form, context_.pose.position,
-                                                     up_to, enough_m, &features_);
-    if (features > 0.0) return {features, false, true};
-  }
-  ++dear_looks_;
+  if (!core_ && part.part == SearchPart::face && continues_tracked_plane(t)) return {};
   work_ += cost_.look;
-  GlanceExcludes ahead = GlanceExcludes::nothing;
-  if (enough_m > 0.0 && ahead_m_ > 0.0 && part.part == SearchPart::whole) ahead = glance_ahead(t);
-  if (ahead == GlanceExcludes::all) return {};
-  for (std::size_t i = 0; i < known_count_ && !is_side(part.part) && part.part != SearchPart::region; ++i)
-    if (leads_to(i, t, std::min(enough_m, slope_m_))) return own_slope(enough_m);
-  const bool face = ahead == GlanceExcludes::nothing;
-  const PatchExclusion proof = exclude_part(context_, part, up_to, enough_m, &features_, face);
-  work_ += cost_.test * (proof.tests + features_.take_tests());
+  const bool looks_ahead = enough_m > 0.0 && ahead_m_ > 0.0 && part.part != SearchPart::region;
+  if (part.part == SearchPart::face) ++dear_looks_;
+  if (looks_ahead && excludes_ahead(part)) return {};
+  if (part.part != SearchPart::face) ++dear_looks_;
+  for (std::size_t i = 0; i < known_count_; ++i)
+    if (is_slope_of(i, part, std::min(enough_m, slope_m_)))
+      return part.part == SearchPart::region ? Look{} : own_slope(enough_m);
+  const PatchExclusion proof = exclude_part(context_, part, up_to, enough_m);
+  work_ += cost_.test * proof.tests;
   if (!proof.possible && proof.margin_m > 0.0) return {proof.margin_m, false, true};
   if (!proof.possible) return {kUnresolvedMargin * slope_m_, true, true};
   if (proof.height_m != 0.0 && is_tracked(t, proof)) return own_slope(enough_m);
@@ -319,16 +320,13 @@ Look RivalSearch::look_at(PartOfTriangle part, double enough_m, const RankBound&
   return solve(part, proof, enough_m, result);
 }
 
-GlanceExcludes RivalSearch::glance_ahead(std::uint32_t t) {
+bool RivalSearch::excludes_ahead(const PartOfTriangle& part) {
   work_ += cost_.glance;
-  const RankBound bound{ahead_bound_m_, closing_};
-  if (core_)
-    return core_excludes_at_a_glance(context_, *core_ahead_, t, bound, ahead_m_, &features_ahead_)
-               ? GlanceExcludes::all
-               : GlanceExcludes::nothing;
   ContactContext there{context_.cache, settings_, context_.finger, ahead_pose_, context_.origin};
-  const GlanceExcludes excluded = glance_at(there, t, bound, ahead_m_, &features_ahead_);
-  work_ += cost_.test * features_ahead_.take_tests();
+  int tests = 0;
+  const bool excluded =
+      excludes_at_a_glance(there, core_ ? &*core_ahead_ : nullptr, part, {ahead_bound_m_, closing_}, ahead_m_, tests);
+  if (!core_) work_ += cost_.test * tests;
   return excluded;
 }
 
@@ -475,11 +473,6 @@ Look RivalSearch::solve_from(const PartOfTriangle& part, const PatchExclusion& p
     iterate(context_, so_far, share * kDeeperRivalBudget, r);
     result.evaluations += r.evaluations;
   }
-  if (!r.converged() && proof.also_inside) {
-    iterate(context_, place_on_face(part.triangle, proof.inside_u, std::min(proof.inside_v, 1.0 - proof.inside_u)),
-            share * kRivalBudget, r);
-    result.evaluations += r.evaluations;
-  }
   if (core_ && r.stop == StopReason::unstable) look_beyond_fold(share * kDeeperRivalBudget, r, result.evaluations);
   // No contact there now, but one may come up: ask again before long.
   if (!r.converged()) return {kUnresolvedMargin * slope_m_, true, true};
@@ -488,7 +481,6 @@ Look RivalSearch::solve_from(const PartOfTriangle& part, const PatchExclusion& p
     const bool ran_past = interior && r.plane.triangle != part.triangle &&
                           !(is_beside(proof, r.plane.point) && (core_ || is_as_high(proof, r.contact.height_m)));
     if (ran_past) return {kUnresolvedMargin * slope_m_, true, true};
-    if (proof.feature != PatchExclusion::kNoFeature) features_.add(proof.feature);  // seen from others it is the same
     return own_slope(enough_m);
   }
   remember(r.plane, r.contact);

@@ -57,7 +57,7 @@ class RivalSearch {
   static SolverSettings robust(SolverSettings settings);
 
   static WatchedTriangle watched_triangle(const PartOfTriangle& part, const Look& look);
-  PartOfTriangle part_of(const WatchedTriangle& watched) const;
+  static PartOfTriangle part_of(const WatchedTriangle& watched);
   /// Puts a triangle on the list if it is among the soonest. Returns the margin of the one that is not. A heap while it
   /// grows, the latest on top.
   static double watch(Clearance& clearance, const PartOfTriangle& part, const Look& look);
@@ -84,13 +84,15 @@ class RivalSearch {
   /// Whether the face of a triangle holds no other contact than the tracked one, for good: both are parts of one plane
   /// with one normal, as the slivers of a flat cap are, and that has one place under the finger.
   bool continues_tracked_plane(std::uint32_t t) const;
-  /// Whether a known contact is the one that a part of a region, or a side, may have.
-  bool holds_known(const PartOfTriangle& part) const;
+  /// Whether a known contact is the one that a region, a side or a corner may have.
+  bool holds_known(const PartOfTriangle& part, const KnownContact& known) const;
+  /// Whether a part leads to a known contact: a side or corner where the contact is on one of its triangles.
+  bool is_slope_of(std::size_t i, const PartOfTriangle& part, double margin_m);
   /// `up_to`: rank below which contacts count.
   Look look_at(PartOfTriangle part, double enough_m, const RankBound& up_to, RivalResult& result);
 
-  /// Of what of a triangle nothing counts in the look-ahead.
-  GlanceExcludes glance_ahead(std::uint32_t t);
+  /// Whether nothing of a part counts in the look-ahead.
+  bool excludes_ahead(const PartOfTriangle& part);
   /// Ground that leads to a known contact. Steady ground does so for good, other ground as far as a look-ahead goes.
   Look own_slope(double enough_m) const { return enough_m > slope_m_ ? Look{slope_m_} : Look{}; }
 
@@ -152,7 +154,6 @@ class RivalSearch {
   HeightChange change_;    ///< of the tracked contact
   FingerPose ahead_pose_;  ///< the middle of the look-ahead, its radius (0: it is about the finger), what counts there
   double ahead_m_ = 0.0, ahead_bound_m_ = 0.0;
-  FeatureMemory features_, features_ahead_;
   std::array<KnownContact, kKnownContacts> known_;
   std::array<double, kKnownContacts> known_depths_;
   std::size_t known_count_ = 0;

@@ -65,6 +65,24 @@ ContactQuery query_for_all(ContactContext& context, std::optional<FingerCore>& c
 
 SearchWork work_of(const Finger& finger) { return is_round(finger) ? SearchWork::of_round() : SearchWork::of_core(); }
 
+/// The last record of a trace is the place that is shown: of one that no solve came to.
+void record(const ContactContext& context, const IterationResult& best) {
+  if (!context.trace) return;
+  IterationRecord record;
+  record.feature = best.plane.feature;
+  record.stop = best.stop;
+  record.seed = 255;
+  record.triangle = best.plane.triangle;
+  record.u = best.plane.u;
+  record.v = best.plane.v;
+  record.point = record.contact = context.origin + best.plane.point;
+  record.normal = best.plane.normal;
+  record.travel = best.contact.travel;
+  record.error_m = best.contact.error_m;
+  record.distance_m = best.contact.penetration_m;
+  context.trace->push(record);
+}
+
 /// A search of everything that is begun now.
 Clearance begun_at(const FingerPose& pose) {
   Clearance begun;
@@ -91,12 +109,11 @@ bool seed_in_parts(ContactContext& context, const SearchStructures& search, int 
   ContactQuery query = query_for_all(there, core);
   query.most_work = work;
   const SearchWork cost = work_of(context.finger);
-  FeatureMemory features;
   double rank = std::numeric_limits<double>::max();
   const auto visit = [&](std::uint32_t t, ContactQuery& q) {
     PartOfTriangle part{t, q.part};
-    const PatchExclusion proof = exclude_part(there, part, {rank}, 0.0, &features);
-    q.work += cost.look + cost.test * (proof.tests + features.take_tests());
+    const PatchExclusion proof = exclude_part(there, part, {rank});
+    q.work += cost.look + cost.test * proof.tests;
     if (proof.margin_m > 0.0) return true;
     IterationResult then, now;
     iterate(there, start_on(there, part, proof), kSeedBudget, then);
@@ -174,26 +191,18 @@ bool seed_by_hierarchy(ContactContext& context, const SearchStructures& search, 
   query.most_work = work;
   const SearchWork cost = work_of(context.finger);
   int solves = 0;
-  FeatureMemory features;
   const auto visit = [&](std::uint32_t t, ContactQuery& q) {
     if (failed.has(t, q.part)) return true;
     PartOfTriangle part{t, q.part};
-    const PatchExclusion proof = exclude_part(context, part, {selection.bound_m(most)}, 0.0, &features);
-    q.work += cost.look + cost.test * (proof.tests + features.take_tests());
+    const PatchExclusion proof = exclude_part(context, part, {selection.bound_m(most)});
+    q.work += cost.look + cost.test * proof.tests;
     if (proof.margin_m > 0.0) return true;
     context.seed = static_cast<std::uint8_t>(std::min(++solves, 255));
     IterationResult r;
     solve_start(context, start_on(context, part, proof), selection.bound_m(most), r);
     q.work += cost.evaluation * r.evaluations;
-    bool found = selection.offer(context, r) || offer_beyond_fold(context, r, most, q, selection) ||
-                 offer_ends(context, r, most, q, selection);
-    if (proof.also_inside && !is_round(context.finger)) {
-      IterationResult inside;
-      iterate(context, place_on_face(t, proof.inside_u, std::min(proof.inside_v, 1.0 - proof.inside_u)), kSeedBudget,
-              inside);
-      q.work += cost.evaluation * inside.evaluations;
-      found = selection.offer(context, inside) || found;
-    }
+    const bool found = selection.offer(context, r) || offer_beyond_fold(context, r, most, q, selection) ||
+                       offer_ends(context, r, most, q, selection);
     if (!found) {
       failed.add(t, q.part);
       if (part.triangle != t) failed.add(part.triangle, q.part);
@@ -267,7 +276,9 @@ void seed_in_hollow(ContactContext& context, const SearchStructures& search, dou
     hit = search.nearest.nearest(support_point(context.finger, context.pose, normal), kAnyDistance);
   }
   IterationResult r;
-  if (find_in_hollow(context, feature_at(mesh, hit.triangle, hit.u, hit.v), r)) selection.offer(context, r);
+  if (!find_in_hollow(context, feature_at(mesh, hit.triangle, hit.u, hit.v), r)) return;
+  selection.offer(context, r);
+  if (selection.result.best.plane.point == r.plane.point) record(context, r);
 }
 
 /// Where only unstable contacts were found: the stable ones beside the nearest of them.
@@ -303,21 +314,7 @@ void face_the_finger(ContactContext& context, const SearchStructures& search, Se
     r.contact.error_m = own.error_m;
     selection.offer(context, r);
   }
-  if (!context.trace || !selection.result.found) return;
-  const IterationResult& best = selection.result.best;
-  IterationRecord record;
-  record.feature = best.plane.feature;
-  record.stop = best.stop;
-  record.seed = 255;
-  record.triangle = best.plane.triangle;
-  record.u = best.plane.u;
-  record.v = best.plane.v;
-  record.point = record.contact = context.origin + best.plane.point;
-  record.normal = best.plane.normal;
-  record.travel = best.contact.travel;
-  record.error_m = best.contact.error_m;
-  record.distance_m = best.contact.penetration_m;
-  context.trace->push(record);
+  if (selection.result.found) record(context, selection.result.best);
 }
 
 /// How much a search for a start does in one tick (search_work.h): up to the likely rank, and of everything.

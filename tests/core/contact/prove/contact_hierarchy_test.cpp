@@ -2,14 +2,18 @@
 #include "core/contact/prove/contact_hierarchy.h"
 #include "core/contact/follow/step_rule.h"
 #include "core/contact/patch_cache.h"
+#include "core/mesh/vertex_ring.h"
 #include "tests/core/capped_cylinder.h"
+#include "tests/core/creased_meshes.h"
 #include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 using namespace tangent;
@@ -58,6 +62,28 @@ std::set<std::uint32_t> visited(const LateHierarchy& tree, const ContactQuery& q
     return true;
   });
   return seen;
+}
+
+using Parts = std::set<std::pair<std::uint32_t, SearchPart>>;
+Parts visited_parts(const LateHierarchy& tree, const ContactQuery& query) {
+  Parts seen;
+  tree.visit(query, [&](std::uint32_t t, ContactQuery& q) {
+    seen.emplace(t, q.part);
+    return true;
+  });
+  return seen;
+}
+bool has_side(const ContactMesh& mesh, const Parts& parts, std::uint32_t t, std::uint32_t k) {
+  const EdgeLink other = mesh.across(t, k);
+  return parts.contains({t, side_part(k)}) ||
+         (other.triangle != kNone && parts.contains({other.triangle, side_part(other.edge)}));
+}
+bool has_corner(const ContactMesh& mesh, const Parts& parts, std::uint32_t t, std::uint32_t k) {
+  bool has = false;
+  around_vertex(mesh, t, k, [&](std::uint32_t at, std::uint32_t corner) {
+    has = has || parts.contains({at, corner_part(corner)});
+  });
+  return has;
 }
 
 struct Findings {
@@ -122,7 +148,7 @@ TEST_CASE("a search of spot visits every triangle that holds a contact, and few 
   CHECK(f.visited_share < 0.3);
 }
 
-TEST_CASE("a search visits the triangles of a box's edge and corner contacts") {
+TEST_CASE("a search visits the edges and corners of a box that hold a contact") {
   const auto box = scene_of(*generate_mesh("cube"));
   const ContactMesh& mesh = box->mesh();
   Random random(132);
@@ -138,40 +164,92 @@ TEST_CASE("a search visits the triangles of a box's edge and corner contacts") {
         const Vec3 fan = unit(random.in(0.0, 1.0) * mesh.normal(t, k) +
                               random.in(0.0, 1.0) * mesh.normal(other.triangle, other.edge));
         const Vec3 corner = mesh.position(t, k), octant = unit(glm::sign(corner) * glm::abs(random.direction()));
-        for (const auto& [point, n] : {std::pair(on, fan), std::pair(corner, octant)}) {
-          ContactQuery query;
-          query.centre = point + h * n;
-          query.nearest_m = 1.001 * h;
-          query.inside_m = -1.0;
-          const auto seen = visited(box->hierarchy(), query);
-          ++asked;
-          missed += !seen.contains(t);
-          missed += !seen.contains(other.triangle);
-        }
+        ++asked;
+        ContactQuery query;
+        query.centre = on + h * fan;
+        query.nearest_m = 1.001 * h;
+        query.inside_m = -1.0;
+        missed += !has_side(mesh, visited_parts(box->hierarchy(), query), t, k);
+        query.centre = corner + h * octant;
+        missed += !has_corner(mesh, visited_parts(box->hierarchy(), query), t, k);
       }
     }
   CHECK(asked > 0);
   CHECK(missed == 0);
 }
 
-TEST_CASE("a search visits the rim of an open plate from every side") {
-  const auto plate = scene_of(height_field(0.05, 4, [](double, double) { return 0.0; }));
-  const ContactMesh& mesh = plate->mesh();
+TEST_CASE("a search visits the creases, rims and corners that hold a contact, at rest and on the move") {
   Random random(133);
-  int missed = 0;
-  for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      if (mesh.edge_kind(t, k) != EdgeKind::boundary) continue;
-      for (int i = 0; i < 20; ++i) {
-        const double f = random.in(0.0, 1.0), h = random.in(0.001, 0.03);
-        ContactQuery query;
-        query.centre = (1.0 - f) * mesh.position(t, k) + f * mesh.position(t, (k + 1) % 3) + h * random.direction();
-        query.nearest_m = 1.001 * h;
-        query.inside_m = -1.0;
-        missed += !visited(plate->hierarchy(), query).contains(t);
+  std::vector<ContactMesh> meshes = creased_meshes_and_rims();
+  meshes.push_back(*ContactMesh::build(height_field(0.05, 4, [](double, double) { return 0.0; })));
+  int missed = 0, sides = 0, corners = 0;
+  for (const ContactMesh& mesh : meshes) {
+    const LateHierarchy tree(mesh, nullptr);
+    PatchCache cache(mesh);
+    for (int i = 0; i < rounds(20000); ++i) {
+      const std::uint32_t t = random.below(mesh.triangle_count()), k = random.below(3);
+      const double h = random.in(0.001, 0.03);
+      ContactQuery query;
+      query.margin_m = random.below(2) ? 0.0 : std::pow(10.0, random.in(-5.0, -3.0));
+      query.ahead = random.in(0.0, 1.0) * query.margin_m * random.direction();
+      query.nearest_m = 1.001 * h + 2.0 * query.margin_m;
+      query.inside_m = -1.0;
+      const Vec3 moved = 0.999 * random.in(0.0, 1.0) * query.margin_m * random.direction() - query.ahead;
+      if (mesh.edge_kind(t, k) != EdgeKind::smooth) {
+        if (const std::optional<SurfaceSample> s = place_on_fan(cache, t, k, random)) {
+          query.centre = s->point + h * s->normal + moved;
+          ++sides;
+          missed += !has_side(mesh, visited_parts(tree, query), t, k);
+        }
+      }
+      if (const std::optional<Vec3> normal = normal_of_corner(mesh, t, k, random)) {
+        query.centre = mesh.position(t, k) + h * *normal + moved;
+        ++corners;
+        missed += !has_corner(mesh, visited_parts(tree, query), t, k);
       }
     }
+  }
+  MESSAGE(sides << " on creases and rims, " << corners << " on corners, " << missed << " missed");
   CHECK(missed == 0);
+  CHECK(sides > rounds(10000));
+  CHECK(corners > rounds(10000));
+}
+
+TEST_CASE("every crease, rim and corner is one part of the search, hollow creases are none") {
+  for (const ContactMesh& mesh : creased_meshes_and_rims()) {
+    ContactQuery all;
+    all.nearest_m = all.inside_m = 1.0;
+    all.margin_m = 1.0;
+    const LateHierarchy tree(mesh, nullptr);
+    std::size_t visits = 0;
+    Parts parts;
+    tree.visit(all, [&](std::uint32_t t, ContactQuery& q) {
+      ++visits;
+      parts.emplace(t, q.part);
+      return true;
+    });
+    CHECK(visits == parts.size());
+    PatchCache cache(mesh);
+    std::size_t faces = 0, sides = 0, hollow = 0, missed = 0, hidden = 0;
+    std::set<std::uint32_t> vertices;
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+      faces += mesh.usable(t);
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const EdgeKind kind = mesh.edge_kind(t, k);
+        if (mesh.feature_corner(t, k)) missed += !has_corner(mesh, parts, t, k);
+        if (mesh.feature_corner(t, k)) vertices.insert(mesh.vertex(t, k));
+        if (kind == EdgeKind::smooth || (kind == EdgeKind::crease && mesh.across(t, k).triangle < t)) continue;
+        const bool seen = has_side(mesh, parts, t, k);
+        ++(seen ? sides : hollow);
+        for (int i = 0; i <= 10 && !seen; ++i) hidden += cache.fan(t, k, 0.1 * i, NormalForm::bernstein).convex();
+      }
+    }
+    CHECK(missed == 0);
+    CHECK(hidden == 0);
+    CHECK(sides > hollow);
+    CHECK(parts.size() >= faces + sides + vertices.size());  // a vertex may be that of several fans of triangles
+    CHECK(parts.size() <= faces + sides + 2 * vertices.size());
+  }
 }
 
 TEST_CASE("for fingers that are not round the tilt keeps their contacts in the search") {
@@ -261,7 +339,7 @@ TEST_CASE("a search of a rim of many edges visits those that the finger can touc
     REQUIRE(rim.size() == 2 * kCorners);
     Random random(135);
     int missed = 0;
-    std::size_t looked_at = 0;
+    std::size_t looked_at = 0, corners = 0;
     const int centres = rounds(2000);
     for (int i = 0; i < centres; ++i) {
       const auto& [t, k] = rim[random.below(2 * kCorners)];
@@ -279,18 +357,18 @@ TEST_CASE("a search of a rim of many edges visits those that the finger can touc
       query.centre = sample.point + (inside ? -h : h) * normal - query.ahead +
                      0.999 * random.in(0.0, 1.0) * query.margin_m * random.direction();
       query.nearest_m = query.inside_m = 1.001 * h + 2.0 * query.margin_m;
-      bool seen = false;
-      const EdgeLink other = mesh.across(t, k);
-      scene->hierarchy().visit(query, [&](std::uint32_t visited, const ContactQuery& at) {
-        seen |= is_side(at.part) && ((visited == t && side_of(at.part) == k) ||
-                                     (visited == other.triangle && side_of(at.part) == other.edge));
-        looked_at += is_side(at.part);
-        return true;
-      });
-      missed += !seen;
+      const Parts parts = visited_parts(scene->hierarchy(), query);
+      missed += !has_side(mesh, parts, t, k);
+      for (const auto& [visited, part] : parts) {
+        looked_at += is_side(part);
+        corners += is_corner(part);
+      }
     }
     CHECK(missed == 0);
-    MESSAGE((looked_at / static_cast<std::size_t>(centres)) << " of " << rim.size() << " edges are looked at");
+    MESSAGE((looked_at / static_cast<std::size_t>(centres))
+            << " of " << rim.size() << " edges are looked at, and " << (corners / static_cast<std::size_t>(centres))
+            << " corners");
+    CHECK(corners <= looked_at + static_cast<std::size_t>(centres));
     CHECK(looked_at < static_cast<std::size_t>((crease_rad > 0.1 ? 8 : 40) * centres));
   }
 }

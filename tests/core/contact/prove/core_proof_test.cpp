@@ -7,6 +7,7 @@
 #include "core/contact/prove/contact_hierarchy.h"
 #include "core/contact/prove/core_feature_proof.h"
 #include "core/contact/prove/linear_core.h"
+#include "tests/core/features.h"
 #include "tests/core/fingers.h"
 #include "tests/core/scenes.h"
 
@@ -277,7 +278,10 @@ TEST_CASE("no rank excludes a contact of an ellipsoid or a capsule, however deep
     CHECK(on_faces > 0);
     std::uint32_t t = 0;
     const auto features = [&](ContactContext& context, const FingerCore& core, const RankBound& bound) {
-      return exclude_features_by_core(context, core, {t}, bound, random.below(2) ? 1e9 : 0.0).margin_m;
+      const double enough = random.below(2) ? 1e9 : 0.0;
+      return least_margin(context.cache.mesh(), t, [&](const TriangleFeature& feature) {
+        return exclude_feature_by_core(context, core, feature, bound, enough);
+      });
     };
     const auto at_vertex = [&](PatchCache&) {
       t = random.below(sharp.triangle_count());
@@ -322,7 +326,7 @@ TEST_CASE("a glance from a core that lies ahead excludes no contact of an ellips
           own.move_to(core.centre() + 1e-3 * random.direction());  // the finger itself is elsewhere
           context.core = &own;
           const double enough = random.in(1e-5, 1e-3);
-          return core_excludes_at_a_glance(context, core, t, kAnyRank, enough, nullptr) ? enough : 0.0;
+          return core_excludes_at_a_glance(context, core, t, kAnyRank, enough) ? enough : 0.0;
         });
     CHECK(excluded > 0.01);
   }
@@ -381,7 +385,9 @@ TEST_CASE("no contact of an ellipsoid or a capsule comes up on a crease or a ver
           }
         },
         [&](ContactContext& context, const FingerCore& core) {
-          return exclude_features_by_core(context, core, {t}, up_to_them(shape), 1e9).margin_m;
+          return least_margin(mesh, t, [&](const TriangleFeature& feature) {
+            return exclude_feature_by_core(context, core, feature, up_to_them(shape), 1e9);
+          });
         });
     CHECK(on_edges > 0.01);
     const double on_vertices = share_proved(
@@ -396,7 +402,9 @@ TEST_CASE("no contact of an ellipsoid or a capsule comes up on a crease or a ver
           return std::pair(mesh.position(t, k), unit(normal));
         },
         [&](ContactContext& context, const FingerCore& core) {
-          return exclude_features_by_core(context, core, {t}, up_to_them(shape), 1e9).margin_m;
+          return least_margin(mesh, t, [&](const TriangleFeature& feature) {
+            return exclude_feature_by_core(context, core, feature, up_to_them(shape), 1e9);
+          });
         });
     CHECK(on_vertices > 0.01);
   }

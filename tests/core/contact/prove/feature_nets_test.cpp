@@ -151,7 +151,7 @@ TEST_CASE("no finger with a core is kept off a vertex that it touches or can com
       ContactContext context{cache, settings, finger, pose, Vec3(0.0)};
       context.core = &core;
       const double margin =
-          exclude_features_by_core(context, core, {t, k}, {finger.reach_m() + 0.02, 1.0}, 1e-3).margin_m;
+          exclude_feature_by_core(context, core, {t, k, true}, {finger.reach_m() + 0.02, 1.0}, 1e-3).margin_m;
       missed += margin > way * (1.0 + 1e-9) + 1e-12;
       told += margin > 0.0;
       ++all;

@@ -30,8 +30,13 @@ std::size_t skipped(const ContactMesh& mesh, const LateHierarchy& hierarchy, con
   std::set<std::uint32_t> seen;
   hierarchy.visit(query, [&](std::uint32_t t, ContactQuery&) { return seen.insert(t), true; });
   std::size_t count = 0;
-  for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
-    count += !ContactHierarchy::build(mesh, std::array{t}).rules_out(query) && !seen.contains(t);
+  for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+    bool visited = false;
+    ContactHierarchy::build(mesh, std::array{t}).visit(query, [&](std::uint32_t, ContactQuery&) {
+      return visited = true;
+    });
+    count += visited && !seen.contains(t);
+  }
   return count;
 }
 

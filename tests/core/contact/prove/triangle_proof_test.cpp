@@ -1,9 +1,9 @@
-// Proofs about triangles with crease edges: faces and edges together.
+// Proofs about the parts of triangles with crease edges.
 #include "core/contact/prove/triangle_proof.h"
 
 #include "core/contact/follow/step_rule.h"
-#include "core/contact/prove/feature_proof.h"
 #include "core/mesh/vertex_ring.h"
+#include "tests/core/features.h"
 #include "tests/core/fingers.h"
 #include "tests/core/scenes.h"
 
@@ -16,14 +16,14 @@
 using namespace tangent;
 using namespace tangent::test;
 
-TEST_CASE("where a face beside a crease holds a contact a start near it is given, though its edges may hold one, too") {
+TEST_CASE("where a face beside a crease holds a contact a start near it is given") {
   const ScenePtr scene = spot_scene(10.0);
   const ContactMesh& mesh = scene->mesh();
   PatchCache cache(mesh);
   SolverSettings settings;
   const Finger finger = sphere_preset(0.020, Method::robust).finger;
   Random random(18);
-  int contacts = 0, excluded = 0, started = 0, by_edges = 0;
+  int contacts = 0, excluded = 0, started = 0;
   for (int i = 0; i < rounds(4000); ++i) {
     const std::uint32_t t = random.below(mesh.triangle_count());
     if (!mesh.usable(t) || mesh.interior(t)) continue;
@@ -34,16 +34,13 @@ TEST_CASE("where a face beside a crease holds a contact a start near it is given
     if (!stability.stable() || stability.det < 0.2) continue;
     ++contacts;
     ContactContext context{cache, settings, finger, {there.point + height * there.normal, {}}, mesh.origin()};
-    const PatchExclusion proof = exclude_triangle(context, t, {height + 1e-3, 2.0}, 1e-3);
+    PartOfTriangle face{t};
+    const PatchExclusion proof = exclude_part(context, face, {height + 1e-3, 2.0}, 1e-3);
     excluded += !proof.possible;
-    const auto near = [&](double at_u, double at_v) { return std::abs(at_u - u) + std::abs(at_v - v) < 0.1; };
-    by_edges += proof.also_inside && !near(proof.u, proof.v);
-    started += near(proof.u, proof.v) || (proof.also_inside && near(proof.inside_u, proof.inside_v));
+    started += std::abs(proof.u - u) + std::abs(proof.v - v) < 0.1;
   }
-  MESSAGE(contacts << " contacts, " << started << " with a start near them, of " << by_edges
-                   << " that is the second one");
+  MESSAGE(contacts << " contacts, " << started << " with a start near them");
   CHECK(contacts > 100);
-  CHECK(by_edges >= rounds(10));
   CHECK(excluded == 0);
   CHECK(100 * started > 95 * contacts);
 }
@@ -69,9 +66,7 @@ OnBorders contacts_on_borders(const ContactMesh& mesh, const Finger& finger) {
     if (!is_round(finger)) context.core = &core.emplace(finger, pose);
     ++count.contacts;
     bool excluded = true;
-    around([&](std::uint32_t t) {
-      excluded = excluded && exclude_triangle(context, t, {height + 0.05, 2.0}).margin_m > 0.0;
-    });
+    around([&](std::uint32_t t) { excluded = excluded && excludes_triangle(context, t, {height + 0.05, 2.0}); });
     count.excluded += excluded;
   };
   const std::uint32_t step = std::max(1u, mesh.triangle_count() / static_cast<std::uint32_t>(rounds(600)));
@@ -119,26 +114,24 @@ TEST_CASE("a contact exactly on a corner or an edge is not excluded by all trian
   }
 }
 
-TEST_CASE("what a look at creases costs is counted, seldom twice of those that a search has excluded") {
+TEST_CASE("what a look at creases and corners costs is counted, and none where a distance tells") {
   const ScenePtr scene = spot_scene(10.0);
   const ContactMesh& mesh = scene->mesh();
   PatchCache cache(mesh);
-  int first = 0, again = 0, left = 0;
+  int near = 0, far = 0;
   for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
     if (!mesh.usable(t) || mesh.interior(t)) continue;
-    FeatureMemory memory;
     const Vec3 middle = (mesh.position(t, 0) + mesh.position(t, 1) + mesh.position(t, 2)) / 3.0;
-    const auto ask = [&] {
-      return exclude_feature_contacts(cache, {t}, NormalForm::bernstein, middle + 0.02 * mesh.normal(t, 0),
-                                      {0.025, 1.0}, 1e-3, &memory);
-    };
-    if (!(ask() > 0.0)) continue;
-    first += memory.take_tests();
-    left += memory.take_tests();
-    ask();
-    again += memory.take_tests();
+    each_feature(mesh, t, [&](const TriangleFeature& feature) {
+      const auto tests = [&](double height_m) {
+        return exclude_feature_contacts(cache, feature, NormalForm::bernstein, middle + height_m * mesh.normal(t, 0),
+                                        {0.025, 1.0}, 1e-3)
+            .tests;
+      };
+      near += tests(0.020);
+      far += tests(0.100);
+    });
   }
-  CHECK(first > 1000);
-  CHECK(left == 0);
-  CHECK(again * 4 < first);
+  CHECK(near > 1000);
+  CHECK(far == 0);
 }

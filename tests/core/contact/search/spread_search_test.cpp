@@ -169,7 +169,7 @@ TEST_CASE("a finger at the middle of a ball, where every triangle holds a contac
 
 TEST_CASE("where rough ground offers no contact it is looked for in parts, and found again") {
   Random random(3);
-  const ScenePtr scene = scene_of(height_field(0.04, 90, [&](double, double) { return random.in(-2e-3, 2e-3); }));
+  const ScenePtr scene = scene_of(height_field(0.04, 140, [&](double, double) { return random.in(-2e-3, 2e-3); }));
   const Preset preset = deepest_preset({.shape = FingerShape::sphere, .radius_m = 0.002});
   Stepper tracking(scene), searching(scene);
   TickState state;
