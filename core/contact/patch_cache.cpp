@@ -9,6 +9,7 @@ void PatchCache::fill(std::uint32_t slot, std::uint32_t t, NormalForm form) {
   cached.patch = make_patch(*mesh_, t, form);
   cached.flat = is_flat(cached.patch, kStraightEdge);
   cached.bend_known = false;
+  cached.front = PatchFront{};
   held_[slot] = {t, form};
 }
 

@@ -18,6 +18,7 @@ struct CachedPatch {
   bool flat;
   bool bend_known;
   CurvatureBounds bend;
+  PatchFront front;
   PnPatch patch;
 };
 
@@ -87,6 +88,8 @@ class PatchCache {
     if (!slot.bend_known) fill_bend(slot, t);
     return slot.bend;
   }
+  /// Whether its patch keeps its front, once that is asked. Good until the next call for another triangle.
+  PatchFront& front(std::uint32_t t, NormalForm form) { return patch_slot(t, form).front; }
   /// Says that the contact is on triangle `t`, once at a tick's beginning and once at its end: on a large mesh the
   /// triangles beside it and those beside them, which it goes to next, come from the processor's slow memory, so they
   /// are asked for before.

@@ -69,6 +69,24 @@ struct ProductTable {
   }
 };
 
+/// Of the product of three quadratics: to which of the 28 coefficients each three contribute, and their share of that.
+struct TripleTable {
+  std::size_t index[6][6][6]{};
+  double share[6][6][6]{};
+  constexpr TripleTable() {
+    for (int a = 0; a < 6; ++a)
+      for (int b = 0; b < 6; ++b)
+        for (int c = 0; c < 6; ++c) {
+          const Exponents p = kQuadratic[a], q = kQuadratic[b], r = kQuadratic[c];
+          const Exponents sum{p.i + q.i + r.i, p.j + q.j + r.j, p.k + q.k + r.k};
+          const int rest = 6 - sum.i;
+          index[a][b][c] = static_cast<std::size_t>(rest * (rest + 1) / 2 + rest - sum.j);
+          share[a][b][c] = multinomial(p) * multinomial(q) * multinomial(r) / multinomial(sum);
+        }
+  }
+};
+constexpr TripleTable kTriple;
+
 /// Greatest length of (first.along_x, first.along_y) over the patch, of a quadratic and the derivatives of another
 /// form.
 template <std::size_t Terms>
@@ -135,6 +153,30 @@ Room room_of(const PnPatch& patch, const Derivatives& d, const Vec3& x, const Ve
 }
 
 }  // namespace
+
+// The product (S_u x S_v).n has the sign of its coefficients where that is one.
+bool keeps_front(const PnPatch& patch) {
+  std::array<Vec3, 6> along_u, along_v;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Difference& term = kPointTerms[i];
+    along_u[i] = patch.offsets[term.u] - patch.offsets[term.w];
+    along_v[i] = patch.offsets[term.v] - patch.offsets[term.w];
+  }
+  std::array<double, 28> product{};
+  for (std::size_t a = 0; a < 6; ++a)
+    for (std::size_t b = 0; b < 6; ++b) {
+      const Vec3 across = glm::cross(along_u[a], along_v[b]);
+      for (std::size_t c = 0; c < 6; ++c)
+        product[kTriple.index[a][b][c]] +=
+            kTriple.share[a][b][c] * (c < n110 ? 1.0 : 0.5 * patch.mixed_weight) * glm::dot(across, patch.normals[c]);
+    }
+  double least = product[0], most = 0.0;
+  for (const double x : product) {
+    least = std::min(least, x);
+    most = std::max(most, std::abs(x));
+  }
+  return least > 1e-12 * most;
+}
 
 CurvatureBounds curvature_bounds(const PnPatch& patch) {
   constexpr double kMostStretch = 0.4, kLeastFront = 0.5;

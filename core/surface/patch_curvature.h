@@ -13,6 +13,7 @@
 #include "core/surface/pn_patch.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 
 namespace tangent {
@@ -26,6 +27,22 @@ struct CurvatureBounds {
     least = std::min(least, other.least);
     greatest = std::max(greatest, other.greatest);
   }
+};
+
+/// Whether the surface's own normal, S_u x S_v, is on the side of N at every place of a patch: certain where true.
+bool keeps_front(const PnPatch& patch);
+
+/// The same of one patch, found out when it is first asked.
+class PatchFront {
+ public:
+  bool is_kept(const PnPatch& patch) {
+    if (state_ == State::unknown) state_ = keeps_front(patch) ? State::kept : State::not_known;
+    return state_ == State::kept;
+  }
+
+ private:
+  enum class State : std::uint8_t { unknown, kept, not_known };
+  State state_ = State::unknown;
 };
 
 /// For a patch with Bernstein normals (mixed_weight 2) that stay near the flat triangle's and near the surface's own;

@@ -47,19 +47,20 @@ void bisect_parts(const miss::Part& whole, const miss::Ground& ground, const mis
     }
     const bool stable = miss::could_be_stable(part, ground);
     Vec2 zero;
-    if (Slack::kNone && stable && part.depth >= kSettledDepth && miss::is_one_to_one(part, ground) &&
+    if (Slack::kNone && stable && part.depth >= kSettledDepth && miss::is_one_to_one(part) &&
         miss::find_zero(part, ground, zero)) {
       margin = smallest = 0.0;
       result.hold(zero);
       continue;
     }
-    const double folded = Slack::kNone && ground.gentle && !stable ? miss::folded_margin(part, ground) : 0.0;
+    const double folded = Slack::kNone && ground.tells_folds() && !stable ? miss::folded_margin(part, ground) : 0.0;
     if (folded > 0.0) {
       margin = enough_m > 0.0 ? std::min(margin, folded) : 0.0;
       continue;
     }
     if (part.depth < kBisections && tests < (Slack::kNone ? kBisectionTests : kSlackTests)) {
-      const miss::Part halved = part;  // its place is its halves' now
+      miss::Part halved = part;  // its place is its halves' now
+      miss::put_longest_first(halved);
       miss::bisect(halved, stack[size], stack[size + 1]);
       size += 2;
       continue;
@@ -69,7 +70,7 @@ void bisect_parts(const miss::Part& whole, const miss::Ground& ground, const mis
     }
     margin = 0.0;
     // Of a part near a fold, or left over large, or of a patch that bends much, or known roughly, corners don't tell.
-    if (Slack::kNone && ground.gentle && !stable && miss::folded_margin(part, ground) > 0.0) continue;
+    if (Slack::kNone && ground.tells_folds() && !stable && miss::folded_margin(part, ground) > 0.0) continue;
     const Vec2 uv = part.linear_zero();
     const Vec2 middle = (part.at_corner(0) + part.at_corner(1) + part.at_corner(2)) / 3.0;
     const bool found = Slack::kNone && miss::find_zero(part, ground, zero);
@@ -106,7 +107,7 @@ static double least_height_m(const miss::Factors& factors, const miss::Slack& sl
 template <class Slack>
 static PatchExclusion exclude(const PnPatch& patch, const miss::Factors& factors, double enough_m,
                               const RankBound& bound, double behind_m, const Slack& slack,
-                              const std::array<Vec3, 2>& sides) {
+                              const std::array<Vec3, 2>& sides, PatchFront& front) {
   PatchExclusion result;
   if constexpr (!Slack::kNone) {
     if (!slack.place_wanted && factors.any_corner([&](const Vec2& f) { return slack.may_be_zero(f); })) {
@@ -122,7 +123,9 @@ static PatchExclusion exclude(const PnPatch& patch, const miss::Factors& factors
   if (result.margin_m > 0.0 && result.margin_m >= enough_m) return result;
   result.least_height_m = least_height_m(factors, slack);
   if (!result.possible) return result;
-  bisect_parts(whole, factors.ground(sides), factors.distances(), bound, enough_m, factors.rounding_m, slack, result);
+  miss::Ground ground = factors.ground(sides);
+  if constexpr (Slack::kNone) ground.upright = ground.upright && (ground.gentle || front.is_kept(patch));
+  bisect_parts(whole, ground, factors.distances(), bound, enough_m, factors.rounding_m, slack, result);
   if (result.margin_m > 0.0) result.possible = false;
   if (!result.possible) return result;
   if constexpr (!Slack::kNone) {
@@ -144,7 +147,8 @@ double least_distance(const PnPatch& patch, const Vec3& centre) {
   return glm::dot(c, along) - most;
 }
 
-PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m, const RankBound& bound) {
+PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m, const RankBound& bound,
+                               PatchFront& front) {
   const double behind_m =
       certain_margin(bound.way_to(least_distance(patch, centre)), rounding_of_margin(centre, patch.origin));
   if (behind_m > 0.0 && behind_m >= enough_m) {
@@ -155,8 +159,12 @@ PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double 
   }
   miss::Factors factors;
   if (!factors.set(patch, centre)) return {};
-  return exclude(patch, factors, enough_m, bound, behind_m, miss::NoSlack{},
-                 {patch.offsets[b030], patch.offsets[b003]});
+  return exclude(patch, factors, enough_m, bound, behind_m, miss::NoSlack{}, {patch.offsets[b030], patch.offsets[b003]},
+                 front);
+}
+PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m, const RankBound& bound) {
+  PatchFront front;
+  return exclude_contact(patch, centre, enough_m, bound, front);
 }
 
 PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m, const StandIn& stands_for) {
@@ -174,7 +182,8 @@ PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double 
     if (glm::dot(slack.spread[i], slack.spread[i]) > glm::dot(slack.longest, slack.longest))
       slack.longest = slack.spread[i];
   }
-  return exclude(patch, factors, enough_m, kEveryRank, 0.0, slack, stands_for.sides);
+  PatchFront front;
+  return exclude(patch, factors, enough_m, kEveryRank, 0.0, slack, stands_for.sides, front);
 }
 
 bool excludes_at_a_glance(const PnPatch& patch, const Vec3& centre, const RankBound& bound, double enough_m) {

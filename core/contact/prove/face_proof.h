@@ -10,6 +10,7 @@
 
 #include "core/contact/contact_rank.h"
 #include "core/mesh/contact_mesh.h"
+#include "core/surface/patch_curvature.h"
 #include "core/surface/pn_patch.h"
 
 #include <algorithm>
@@ -47,6 +48,9 @@ inline constexpr RankBound kEveryRank{std::numeric_limits<double>::infinity()};
 /// distance of c, and no rank is less, so parts that are further off than `bound` are excluded until they count.
 PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m = 0.0,
                                const RankBound& bound = kEveryRank);
+/// The same, where it is kept whether the surface's own normal is on the normals' side.
+PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m, const RankBound& bound,
+                               PatchFront& front);
 
 /// Lower bound of the distance of a centre from the patch, m: a contact on it ranks no less.
 double least_distance(const PnPatch& patch, const Vec3& centre);

@@ -141,8 +141,16 @@ Ground Factors::ground(const std::array<Vec3, 2>& sides) const {
   constexpr double kGentle = 0.9;
   const Vec3 flat = glm::cross(sides[0], sides[1]);
   bool gentle = glm::dot(flat, axis) > kGentle * std::sqrt(glm::dot(flat, flat));
-  for (const InFrame& x : n) gentle = gentle && x.z() > kGentle;
-  return {gentle, in_frame(sides[0]), in_frame(sides[1]), turn(n200, n110, n110, n020, n101, n011),
+  bool upright = true;
+  for (const InFrame& x : n) {
+    gentle = gentle && x.z() > kGentle;
+    upright = upright && x.z() > 0.0;
+  }
+  return {gentle,
+          upright,
+          in_frame(sides[0]),
+          in_frame(sides[1]),
+          turn(n200, n110, n110, n020, n101, n011),
           turn(n200, n101, n101, n002, n110, n011)};
 }
 

@@ -26,6 +26,50 @@ SideDerivative side_derivative(const Part& part) {
   return side;
 }
 
+/// The derivatives of f along two sides of a part, a fifth of them, one of them less a share of the other, so that
+/// their middles are across each other: by how much they are along their own direction at least and along the other at
+/// most.
+struct Spread {
+  double turns = 0.0;  ///< the sign that their determinant has all over the part; 0: not known
+  double first_own = 0.0, first_other = 0.0, second_own = 0.0, second_other = 0.0;
+  Vec2 first, second;  ///< the two directions, in (u, v)
+
+  /// Least size of the determinant.
+  double room() const { return first_own * second_own - first_other * second_other; }
+};
+
+Spread spread(const Part& part) {
+  const Vec2 to_1 = part.corner[1] - part.corner[0], to_2 = part.corner[2] - part.corner[0];
+  const Vec2 a = 0.2 * (part.at_corner(1) - part.at_corner(0)), b = 0.2 * (part.at_corner(2) - part.at_corner(0));
+  const bool swapped = glm::dot(b, b) > glm::dot(a, a);
+  const Vec2 p = swapped ? b : a, q = swapped ? a : b;
+  const double length2 = glm::dot(p, p);
+  Spread out;
+  if (!(length2 > 0.0)) return out;
+  const Vec2 e = p / std::sqrt(length2);
+  const double share = glm::dot(p, q) / length2, side = cross(p, q) > 0.0 ? 1.0 : -1.0;
+  out.first = swapped ? to_2 : to_1;
+  out.second = (swapped ? to_1 : to_2) - share * out.first;
+  out.first_own = out.second_own = kUnbounded;
+#pragma GCC unroll 5
+  for (int i = 0; i <= 4; ++i) {
+#pragma GCC unroll 5
+    for (int j = 0; j <= 4 - i; ++j) {
+      const Vec2& from = part.f[quintic_index(i + 1, j)];
+      const Vec2 along_1 = part.f[quintic_index(i, j + 1)] - from, along_2 = part.f[quintic_index(i, j)] - from;
+      const Vec2 first = swapped ? along_2 : along_1;
+      const Vec2 second = (swapped ? along_1 : along_2) - share * first;
+      out.first_own = std::min(out.first_own, glm::dot(e, first));
+      out.first_other = std::max(out.first_other, std::abs(cross(e, first)));
+      out.second_own = std::min(out.second_own, side * cross(e, second));
+      out.second_other = std::max(out.second_other, std::abs(glm::dot(e, second)));
+    }
+  }
+  const bool known = out.first_own > 0.0 && out.second_own > 0.0 && out.room() > 1e-9 * out.first_own * out.second_own;
+  out.turns = known ? (swapped ? -side : side) : 0.0;
+  return out;
+}
+
 /// f at the place x, y along the two sides from corner 0 of a part, by de Casteljau, and its derivatives there.
 struct QuinticValue {
   Vec2 f, dx, dy;
@@ -53,29 +97,31 @@ QuinticValue value_at(const Part& part, double x, double y) {
 }  // namespace
 
 bool could_be_stable(const Part& part, const Ground& ground) {
+  const Vec2 xa = part.at_corner(0) - part.at_corner(1), xb = part.at_corner(0) - part.at_corner(2);
+  if (!ground.gentle && ground.upright)
+    return cross(xa, xb) * cross(part.corner[1] - part.corner[0], part.corner[2] - part.corner[0]) >= 0.0;
   const auto flat = [&](int k) { return ground.flat(part.corner[k]); };
   const Vec2 a = flat(1) - flat(0), b = flat(2) - flat(0);
-  const Vec2 xa = part.at_corner(0) - part.at_corner(1), xb = part.at_corner(0) - part.at_corner(2);
   const double area = cross(a, b);
   return cross(xa, xb) * area >= 0.0 && (cross(xa, b) + cross(a, xb)) * area >= 0.0;
 }
 
 double folded_margin(const Part& part, const Ground& ground) {
-  const SideDerivative a = side_derivative<1>(part), b = side_derivative<2>(part);
   const Vec2 to_1 = part.corner[1] - part.corner[0], to_2 = part.corner[2] - part.corner[0];
+  double margin = 0.0;
+  const Spread all = spread(part);
+  if (all.turns * cross(to_1, to_2) < 0.0) {
+    // Moving c changes what both are and what is left for the other by as much.
+    const double rate = 0.2 * (ground.turn(all.second) * (all.first_own + all.first_other) +
+                               ground.turn(all.first) * (all.second_own + all.second_other));
+    margin = all.room() / rate;
+  }
+  if (!ground.gentle) return std::min(margin, 1e300);
+  const SideDerivative a = side_derivative<1>(part), b = side_derivative<2>(part);
   const Vec2 flat_a = ground.flat(to_1), flat_b = ground.flat(to_2);
   const double turn_a = 0.2 * ground.turn(to_1), turn_b = 0.2 * ground.turn(to_2);
   const double side = cross(flat_a, flat_b) > 0.0 ? 1.0 : -1.0;
   const auto length = [](const Vec2& x) { return std::sqrt(glm::dot(x, x)); };
-  const double long_a = length(a.middle) + a.off, long_b = length(b.middle) + b.off;
-
-  const double det = -side * cross(a.middle, b.middle);
-  const double det_room = det - (long_a * long_b - (long_a - a.off) * (long_b - b.off));
-  double margin = 0.0;
-  if (det_room > 1e-9 * det) {
-    const double rate = long_a * turn_b + long_b * turn_a;
-    margin = 2.0 * det_room / (rate + std::sqrt(rate * rate + 4.0 * turn_a * turn_b * det_room));
-  }
   const double trace = side * (cross(a.middle, flat_b) + cross(flat_a, b.middle));
   const double trace_room = trace - (a.off * length(flat_b) + b.off * length(flat_a));
   if (trace_room > 1e-9 * trace)
@@ -83,12 +129,8 @@ double folded_margin(const Part& part, const Ground& ground) {
   return std::min(margin, 1e300);
 }
 
-bool is_one_to_one(const Part& part, const Ground& ground) {
-  const SideDerivative a = side_derivative<1>(part), b = side_derivative<2>(part);
-  const auto length = [](const Vec2& x) { return std::sqrt(glm::dot(x, x)); };
-  const double area = cross(ground.flat(part.corner[1] - part.corner[0]), ground.flat(part.corner[2] - part.corner[0]));
-  const double det = (area > 0.0 ? 1.0 : -1.0) * cross(a.middle, b.middle);
-  return det > 0.0 && det > 1.0001 * (a.off * length(b.middle) + b.off * length(a.middle) + a.off * b.off);
+bool is_one_to_one(const Part& part) {
+  return spread(part).turns * cross(part.corner[1] - part.corner[0], part.corner[2] - part.corner[0]) > 0.0;
 }
 
 bool find_zero(const Part& part, const Ground& ground, Vec2& uv) {

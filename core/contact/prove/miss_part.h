@@ -155,6 +155,9 @@ struct Part {
   }
 };
 
+/// Turns a part so that its edge from corner 0 to corner 1 is the one with the longest image, where that is twice as
+/// long: on steep ground images are stretched, and what stays in a row of slivers is bisected in vain.
+void put_longest_first(Part& part);
 /// Halves of a part at the middle of the edge from corner 0 to corner 1, by de Casteljau along each row of that
 /// direction. In both the part's corner 2 comes before the middle or after it, so that the next bisection halves
 /// another edge.

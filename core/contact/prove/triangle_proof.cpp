@@ -46,7 +46,8 @@ PatchExclusion exclude_face(ContactContext& context, std::uint32_t t, const Rank
     proof.possible = false;
     return proof;
   }
-  proof = exclude_contact(context.cache.patch(t, context.settings.normal_form), centre, enough_m, bound);
+  PatchFront& front = context.cache.front(t, context.settings.normal_form);
+  proof = exclude_contact(context.cache.patch(t, context.settings.normal_form), centre, enough_m, bound, front);
   proof.margin_m = std::max({at_once, proof.margin_m, bound.way_to(proof.least_height_m)});
   if (proof.margin_m > 0.0) proof.possible = false;
   return proof;

@@ -105,3 +105,30 @@ TEST_CASE("nothing is said of patches that turn away from their triangle, or of 
   CHECK(!known(curvature_bounds(make_pn_patch({p[0], p[1], p[1]}, up))));
   CHECK(!known(curvature_bounds(make_pn_patch({p[0], p[0], p[0]}, up))));
 }
+
+TEST_CASE(
+    "where a patch is said to keep its front its own normal is on N's side everywhere, and that is said of most") {
+  Random random(911);
+  int kept = 0, told = 0, wrong = 0;
+  for (int i = 0; i < rounds(20000); ++i) {
+    const PnPatch patch = random_patch(random, random.in(0.0, 1.5));
+    constexpr int kPlaces = 12;
+    bool keeps = true;
+    for (int a = 0; a <= kPlaces; ++a)
+      for (int b = 0; a + b <= kPlaces; ++b) {
+        const SurfaceSample s = evaluate(patch, a / double{kPlaces}, b / double{kPlaces});
+        keeps = keeps && glm::dot(glm::cross(s.point_u, s.point_v), s.normal) > 0.0;
+      }
+    PatchFront front;
+    const bool said = front.is_kept(patch);
+    CHECK(said == keeps_front(patch));
+    CHECK(said == front.is_kept(patch));
+    kept += keeps;
+    told += said;
+    wrong += said && !keeps;
+  }
+  MESSAGE(told << " of " << kept << " patches that keep their front are said to, of " << rounds(20000));
+  CHECK(wrong == 0);
+  CHECK(kept < rounds(20000));
+  CHECK(told > 0.9 * kept);
+}

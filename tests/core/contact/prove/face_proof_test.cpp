@@ -125,6 +125,30 @@ TEST_CASE("where a margin is asked for unstable contacts don't count, and no sta
   CHECK(wrong == 0);
 }
 
+TEST_CASE("an unstable contact is excluded by no more than the way straight down to its fold, on steep ground, too") {
+  int unstable = 0, folded = 0, wrong = 0;
+  double nearest = 0.0;
+  at_random_places(126, rounds(200000), [&](Random& random, const PlaceOnPatch& at) {
+    const auto& [patch, s, size] = at;
+    const NormalBend bend = normal_bend(s);
+    const double root2 = 0.25 * bend.sum_per_m * bend.sum_per_m - bend.product_per_m2;
+    if (!(root2 > 0.0) || !keeps_front(patch)) return;
+    const double least = 0.5 * bend.sum_per_m - std::sqrt(root2), most = 0.5 * bend.sum_per_m + std::sqrt(root2);
+    if (!(least < 0.0)) return;
+    const double fold = -1.0 / least, h = fold * (1.0 + std::pow(10.0, random.in(-3.0, 1.0)));
+    if (!(1.0 + fold * most > 1e-3) || fold > 1e4 * size) return;  // below the fold it is stable, or the ground flat
+    ++unstable;
+    const PatchExclusion e = exclude_contact(patch, s.point + h * s.normal, 10.0 * size);
+    folded += e.margin_m > 0.0;
+    wrong += e.margin_m > (h - fold) * (1.0 + 1e-9);
+    nearest = std::max(nearest, e.margin_m / (h - fold));
+  });
+  MESSAGE(folded << " of " << unstable << " excluded, by up to " << nearest << " of the way, " << wrong << " by more");
+  CHECK(wrong == 0);
+  CHECK(folded > unstable / 20);
+  CHECK(nearest > 0.3);
+}
+
 TEST_CASE("under a centre with a stable contact on it a face may hold one, however much it takes to find") {
   // 248 of 7,126 were missed when parts that were left over, large, or of patches that bend much were judged by their
   // corners.
