@@ -60,7 +60,7 @@ void bisect_parts(const miss::Part& whole, const miss::Ground& ground, const mis
     }
     if (part.depth < kBisections && tests < (Slack::kNone ? kBisectionTests : kSlackTests)) {
       miss::Part halved = part;  // its place is its halves' now
-      miss::put_longest_first(halved);
+      if constexpr (Slack::kNone) miss::put_longest_first(halved);
       miss::bisect(halved, stack[size], stack[size + 1]);
       size += 2;
       continue;
