@@ -95,7 +95,7 @@ bool look_for_touched(ContactContext& context, const SearchStructures& search, c
   for (const TouchedContact& c : rival.touched.all()) {
     const bool counts = c.contact.penetration_m >= least &&
                         was_entered(step_of(context), c.contact.penetration_m, depth) &&
-                        !(has_far_side && is_far_side(c, tracked));
+                        !(has_far_side && is_far_side(c, tracked)) && can_be_followed(context, c, decided.evaluations);
     if (counts) touched.add(c, kMergedPlaces * context.settings.tolerance_m);
     refused = refused || !counts;
   }

@@ -38,4 +38,16 @@ FollowedPlaces follow_touched(ContactContext& context, const TouchedPlaces& kept
   return followed;
 }
 
+bool can_be_followed(ContactContext& context, const TouchedContact& place, int& evaluations) {
+  if (is_round(context.finger)) return true;
+  SolverSettings settings = context.settings;
+  settings.method = Method::robust;
+  ContactContext quiet{context.cache, settings, context.finger, context.pose, context.origin};
+  const SurfacePlace kept = place.plane;
+  IterationResult r;
+  iterate(quiet, kept, kTrackBudget, r);
+  evaluations += r.evaluations;
+  return r.converged() && are_one_place(r.plane, place.plane, kMergedPlaces * settings.tolerance_m);
+}
+
 }  // namespace tangent

@@ -18,4 +18,8 @@ struct FollowedPlaces {
 FollowedPlaces follow_touched(ContactContext& context, const TouchedPlaces& kept, const TrackedPlane* tracked,
                               TouchedContacts& now, int& evaluations);
 
+/// Whether a place is found again from what a tick hands on of it. Along the flank of a long finger an edge may be
+/// touched with more than one turn, and then it may not be.
+bool can_be_followed(ContactContext& context, const TouchedContact& place, int& evaluations);
+
 }  // namespace tangent
