@@ -4,12 +4,15 @@
 // only if it is near enough and if some direction from it to c lies in the cone of its normals. The tree keeps,
 // per node, a box of the patches' control points and a cone of their control normals; both hold the patches by
 // the convex-hull property. Compare the spatialized normal cone hierarchy of Johnson & Cohen (I3D 2001).
-// Crease edges add the normals of their fans; boundary edges and vertices are not bounded in direction.
 //
-// Around a flat region of slivers (mesh/flat_regions.h) a node of rim edges has normals that fan out from the region's
-// own, but all across the rim: a cone that holds them holds as many along it, where none are. Such nodes know the rim's
-// direction, too, and how far their normals lean into it: of a rim of n edges a search then looks at those under the
-// finger.
+// A leaf is a face, a crease or boundary, or a vertex where such edges end, each by itself, so that a face's cone is
+// its own; a crease has the normals of its fan.
+//
+// A crease's normals lie across it, those of a boundary, whatever they are, too, and from a contact on a vertex the
+// centre lies ahead along none of its edges, so across any two that make a line. A cone that holds them holds as many
+// that lean along the edge, where none are: such leaves know its direction, too, and how far their normals lean into
+// it, and so do nodes of such leaves alone, as round the rim of a flat region of slivers (mesh/flat_regions.h). Of a
+// rim of n edges a search then looks at those under the finger.
 //
 // A node also knows between which curvatures its ground bends. Where that keeps the surface offset by the heights asked
 // for from folding (patch_curvature.h), its contacts come and go over its border only: a search that asks what could
