@@ -265,7 +265,7 @@ bool corners_exclude(const ContactMesh& mesh, std::uint32_t t, NormalForm form, 
   const CornerMisses misses(mesh, t, centre);
   const double wanted = enough_m + rounding_of_margin(centre, misses.p[0]);
   if (!(misses.least > wanted)) return false;
-  return misses.clear() >= wanted || misses.clear_by_normals(mesh, t, form) >= wanted;
+  return misses.clear_by_normals(mesh, t, form) >= wanted;
 }
 
 }  // namespace tangent

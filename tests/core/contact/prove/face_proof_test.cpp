@@ -3,6 +3,7 @@
 
 #include "core/contact/follow/step_rule.h"
 #include "core/surface/mesh_patch.h"
+#include "tests/core/creased_meshes.h"
 #include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>
@@ -276,4 +277,39 @@ TEST_CASE("scaling patch and centre scales margin and height, and moving both mo
     CHECK(scaled.margin_m == 0x1p20 * e.margin_m);
     CHECK(scaled.least_height_m == 0x1p20 * e.least_height_m);
   }
+}
+
+TEST_CASE("the corners of a face exclude no contact that comes up within what was asked for, beside creases, too") {
+  Random random(128);
+  std::vector<ContactMesh> meshes = creased_meshes_and_rims();
+  PolygonMesh rough = make_icosphere(0.030, 3);
+  for (Vec3& p : rough.positions) p *= random.in(0.96, 1.04);
+  rough.normals.clear();
+  rough.corner_normal.clear();
+  for (const double crease_deg : {30.0, 180.0}) {
+    ContactMeshOptions options;
+    options.crease_rad = crease_deg * kDegree;
+    meshes.push_back(*ContactMesh::build(rough, options));
+  }
+  int excluded = 0, wrong = 0, all = 0;
+  double nearest = 0.0;
+  for (const ContactMesh& mesh : meshes)
+    for (int i = 0; i < rounds(40000); ++i) {
+      const NormalForm form = random.below(2) ? NormalForm::bernstein : NormalForm::vlachos;
+      const std::uint32_t t = random.below(mesh.triangle_count());
+      const Vec2 at = random.barycentric();
+      const SurfaceSample s = evaluate(make_patch(mesh, t, form), at.x, at.y);
+      const double height = random.in(-0.030, 0.030), way = std::pow(10.0, random.in(-4.5, -1.5));
+      const Vec3 centre = s.point + height * s.normal + way * random.direction();
+      const double enough = way * std::pow(10.0, random.in(-1.0, 1.0));
+      const bool told = corners_exclude(mesh, t, form, centre, enough);
+      ++all;
+      excluded += told;
+      wrong += told && enough > way * (1.0 + 1e-9) + 1e-12;
+      if (told) nearest = std::max(nearest, enough / way);
+    }
+  MESSAGE(excluded << " of " << all << " excluded, by up to " << nearest << " of the way, " << wrong << " by more");
+  CHECK(wrong == 0);
+  CHECK(excluded > all / 50);
+  CHECK(nearest > 0.5);
 }
