@@ -215,19 +215,11 @@ struct CornerMisses {
     if (length > 0.0) least = most / length;
   }
 
-  /// How far they stay clear of zero, after as much room for the patch's bending as their triangle is wide.
-  double clear() const {
-    constexpr double kGentle = 0.75;  // corner normals within 41 degrees: the patch bends less than it is wide
+  /// How far the misses of the whole patch stay clear of zero along the middle: with the normals as they are a cubic,
+  /// less what the points are off the flat triangle: a third of what sides lean out of their ends' planes at most, or
+  /// of a crease's length.
+  double clear(const ContactMesh& mesh, std::uint32_t t, NormalForm form) const {
     if (!(least > 0.0)) return 0.0;
-    if (glm::dot(n[0], n[1]) < kGentle || glm::dot(n[1], n[2]) < kGentle || glm::dot(n[2], n[0]) < kGentle) return 0.0;
-    double wide2 = 0.0;
-    for (const Vec3& x : miss) wide2 = std::max(wide2, glm::dot(x - middle, x - middle));
-    return least - std::sqrt(wide2);
-  }
-
-  /// The same with the normals as they are, a cubic along the middle, and room for what the points are off the flat
-  /// triangle: a third of what sides lean out of their ends' planes at most, or of a crease's length.
-  double clear_by_normals(const ContactMesh& mesh, std::uint32_t t, NormalForm form) const {
     const Vec3 along = middle / length;
     std::array<Vec3, 6> q;  // (c - P) x N along it is (c - P).q
     double lean = 0.0;
@@ -257,15 +249,15 @@ struct CornerMisses {
 
 }  // namespace
 
-double corner_exclusion(const ContactMesh& mesh, std::uint32_t t, const Vec3& centre) {
-  return certain_margin(CornerMisses(mesh, t, centre).clear(), rounding_of_margin(centre, mesh.position(t, 0)));
+double corner_exclusion(const ContactMesh& mesh, std::uint32_t t, NormalForm form, const Vec3& centre) {
+  return certain_margin(CornerMisses(mesh, t, centre).clear(mesh, t, form),
+                        rounding_of_margin(centre, mesh.position(t, 0)));
 }
 
 bool corners_exclude(const ContactMesh& mesh, std::uint32_t t, NormalForm form, const Vec3& centre, double enough_m) {
   const CornerMisses misses(mesh, t, centre);
   const double wanted = enough_m + rounding_of_margin(centre, misses.p[0]);
-  if (!(misses.least > wanted)) return false;
-  return misses.clear_by_normals(mesh, t, form) >= wanted;
+  return misses.least > wanted && misses.clear(mesh, t, form) >= wanted;
 }
 
 }  // namespace tangent

@@ -75,10 +75,9 @@ struct StandIn {
 };
 PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m, const StandIn& stands_for);
 
-/// A first look at a face from its corners alone, without its patch: by how much the triangle of the corners' misses
-/// (c - P) x N stays clear of zero, after as much room for the patch's bending as that triangle is wide. 0: look
-/// closer.
-double corner_exclusion(const ContactMesh& mesh, std::uint32_t t, const Vec3& centre);
+/// A first look at a face from its corners' places and normals alone, without its patch: no centre nearer than this has
+/// a contact on it, as far as the direction of the middle of the corners' misses (c - P) x N tells. 0: look closer.
+double corner_exclusion(const ContactMesh& mesh, std::uint32_t t, NormalForm form, const Vec3& centre);
 
 /// Whether the corners tell that no centre nearer than `enough_m` has a contact on the face.
 bool corners_exclude(const ContactMesh& mesh, std::uint32_t t, NormalForm form, const Vec3& centre, double enough_m);

@@ -39,8 +39,8 @@ double even_exclusion(const ContactMesh& mesh, std::uint32_t t, const Vec3& cent
 PatchExclusion exclude_face(ContactContext& context, std::uint32_t t, const RankBound& bound, double enough_m) {
   const Vec3& centre = context.pose.position;
   PatchExclusion proof;
-  const double at_once =
-      std::max(corner_exclusion(context.cache.mesh(), t, centre), even_exclusion(context.cache.mesh(), t, centre));
+  const double at_once = std::max(corner_exclusion(context.cache.mesh(), t, context.settings.normal_form, centre),
+                                  even_exclusion(context.cache.mesh(), t, centre));
   if (at_once > 0.0 && at_once >= enough_m) {
     proof.margin_m = at_once;
     proof.possible = false;

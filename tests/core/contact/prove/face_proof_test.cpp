@@ -306,6 +306,7 @@ TEST_CASE("the corners of a face exclude no contact that comes up within what wa
       ++all;
       excluded += told;
       wrong += told && enough > way * (1.0 + 1e-9) + 1e-12;
+      wrong += corner_exclusion(mesh, t, form, centre) > way * (1.0 + 1e-9) + 1e-12;
       if (told) nearest = std::max(nearest, enough / way);
     }
   MESSAGE(excluded << " of " << all << " excluded, by up to " << nearest << " of the way, " << wrong << " by more");
