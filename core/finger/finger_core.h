@@ -106,7 +106,11 @@ class FingerCore {
     return least_length_m - longest_m_ * turn_within(way_m);
   }
   double longest_m() const { return longest_m_; }
-  double width_m() const { return middle_m_; }  ///< the second longest axis
+  const Vec3& axes_m() const { return axes_m_; }
+  const Mat3& rotation() const { return rotation_; }  ///< from the frame of the axes to the pose's
+  double width_m() const { return middle_m_; }        ///< the second longest axis
+  /// By how much it may turn on a way, rad.
+  double turn_within(double way_m) const { return turns_ ? way_m / reach_m_ : 0.0; }
   const Vec3& centre() const { return centre_; }
   /// Unit, along the core's longest axis.
   const Vec3& long_axis() const { return long_axis_; }
@@ -144,7 +148,6 @@ class FingerCore {
     return axes_m_ * (glm::dot(s.direction, scaled_t) * s.direction - scaled_t);
   }
   double slide_rate(double least_length_m, double way_m) const;
-  double turn_within(double way_m) const { return turns_ ? way_m / reach_m_ : 0.0; }
 
   Vec3 centre_, axes_m_, long_axis_;
   Mat3 rotation_;

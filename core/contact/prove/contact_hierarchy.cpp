@@ -9,6 +9,9 @@
 
 namespace tangent {
 
+/// Cosine: single directions tell of parts that are small, or flat, not of others.
+static constexpr float kFlat = 0.9999f;
+
 ContactHierarchy::Outline ContactHierarchy::Outline::about(const Outline& a, const Outline& b) {
   // Ratio and cosine, far above what doubles and the cones' floats are rounded by.
   constexpr double kRadiusRoom = 1e-6, kCosineRoom = 1e-6;
@@ -68,6 +71,18 @@ ContactHierarchy::FourQuery::FourQuery(const ContactQuery& query, const Bounds& 
     const double less = query.core->reach_m() - query.rank_m;
     nearest_m = static_cast<float>(query.core->flattest_m() - less);
     inside_m = static_cast<float>(query.core->least_flattest_m() - less);
+    core = FourCore(*query.core);
+    const auto far = [&](double rank, double way) {
+      return above(std::min<double>(std::numeric_limits<float>::max(), query.core->outside_at(rank, way)));
+    };
+    const auto deep = [&](double rank) {
+      const bool asked = query.inside_m < 0.0 && rank < query.core->deep_rank_m();
+      return asked ? below(query.core->reach_m() - query.core->ball_m() - rank) : 0.0f;
+    };
+    far_here_m = far(query.rank_m, 0.0);
+    far_ahead_m = far(query.rank_m - led, query.steady_only ? 0.0 : query.margin_m);
+    deep_here_m = deep(query.rank_m);
+    deep_ahead_m = deep(query.rank_m - led);
   }
   size += query.margin_m;
   in_floats = size < kLargest;
@@ -83,11 +98,15 @@ ContactHierarchy::Reach ContactHierarchy::reach_of_core(const Node& node, const 
   const FourMask steady = q.nearest_m * node.least_curvature > q.least_steady;
   const FourMask unsteady =
       (node.least_curvature < zero) & (q.inside_m * node.least_curvature < q.least_steady - kSteadyRounding);
+  FourParts parts;
   Four d2 = zero, along = zero;
   for (std::size_t k = 0; k < 3; ++k) {
     const Four d = q.centre[k] - 0.5f * (node.min[k] + node.max[k]) + (steady ? zero : q.ahead[k]);
     d2 += d * d;
     along += d * node.axis[k];
+    parts.away[k] = d;
+    parts.half[k] = 0.5f * (node.max[k] - node.min[k]);
+    parts.axis[k] = node.axis[k];
   }
   const Four way = steady ? zero : zero + q.margin_m;
   const Four away = max(along, -along), rounding = 2.0f * q.room_m + kFloatRounding * (away + node.radius_m);
@@ -99,7 +118,16 @@ ContactHierarchy::Reach ContactHierarchy::reach_of_core(const Node& node, const 
   const FourMask is_behind =
       (behind > zero) & ((1.0f + kSquared) * sin2 * (across2 + across_rounding) < behind * behind);
   const FourMask is_missed = (node.cos_half > kLeastCone) & (is_beside | is_behind);
-  return {box2, (box2 <= q.farthest2) & ~is_missed, steady, unsteady};
+  const FourMask reached = (box2 <= q.farthest2) & ~is_missed;
+  if (!(reached[0] | reached[1] | reached[2] | reached[3])) return {box2, reached, steady, unsteady};
+  parts.cos_half = node.cos_half;
+  parts.sin_half = node.sin_half;
+  parts.radius_m = node.radius_m;
+  parts.way_m = way;
+  parts.far_m = steady ? zero + q.far_here_m : zero + q.far_ahead_m;
+  parts.deep_m = steady ? zero + q.deep_here_m : zero + q.deep_ahead_m;
+  parts.room_m = q.room_m;
+  return {box2, reached & ~q.core.misses(parts, kLeastCone), steady, unsteady};
 }
 
 FourMask ContactHierarchy::in_region(const Node& node, const FourQuery& q) {
@@ -117,12 +145,21 @@ void ContactHierarchy::leave_out_rims(std::uint32_t index, const ContactQuery& q
 }
 
 void ContactHierarchy::look_closer(const Node& node, const ContactQuery& query, Reach& reach) {
-  for (std::uint32_t lane = 0; lane < kFour; ++lane)
-    if (reach.reached[lane] && !can_hold(node.at(lane), !node.is_leaf(lane), query, reach.ground(lane)))
-      reach.reached[lane] = 0;
+  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+    if (!reach.reached[lane]) continue;
+    const bool is_inner = !node.is_leaf(lane);
+    const Ground ground = reach.ground(lane);
+    bool holds = true;
+    if (!query.core || ground == Ground::unknown)
+      holds = can_hold(node.at(lane), is_inner, query);
+    else if (!is_inner || node.cos_half[lane] > kFlat)
+      holds = (!query.steady_only || is_inner || stays(node.at(lane), query)) &&
+              can_touch_known(node.at(lane), query, ground == Ground::steady);
+    if (!holds) reach.reached[lane] = 0;
+  }
 }
 
-bool ContactHierarchy::can_hold(const Bounds& node, bool is_inner, const ContactQuery& q, Ground ground) {
+bool ContactHierarchy::can_hold(const Bounds& node, bool is_inner, const ContactQuery& q) {
   const Vec3 low = node.low(), high = node.high();
   if (q.steady_only) {
     const Vec3 beside = glm::max(low - q.region.max, q.region.min - high);
@@ -131,7 +168,7 @@ bool ContactHierarchy::can_hold(const Bounds& node, bool is_inner, const Contact
   const double box2 = distance2_to_box(low, high, q.centre);
   const bool outside = box2 <= q.nearest_m * q.nearest_m, inside = q.inside_m >= 0.0 && box2 <= q.inside_m * q.inside_m;
   if (!outside && !inside) return false;
-  if (q.core) return touchable(node, is_inner, q, box2, ground);
+  if (q.core) return touchable(node, is_inner, q, box2);
   const bool here = q.steady_only || is_steady(q, node.least_curvature, node.greatest_curvature);
   const Vec3 d = q.centre - node.middle() + (here ? Vec3(0.0) : q.ahead);
   const double radius = node.radius_m + (here ? 0.0 : q.margin_m), d2 = glm::dot(d, d);
@@ -181,6 +218,7 @@ bool ContactHierarchy::push_from(std::uint32_t place, const ContactQuery& query,
     index = node.link[into];
   }
 }
+
 /// lambda of contacts up to a rank (finger_core.h).
 static double most_lambda_m(const FingerCore& core, double rank_m) { return core.ball_m() - core.reach_m() + rank_m; }
 
@@ -217,14 +255,22 @@ NormalCone ContactHierarchy::normals_of(const Bounds& node) {
   return {(1.5 - 0.5 * glm::dot(axis, axis)) * axis, node.cos_half};
 }
 
-bool ContactHierarchy::touchable(const Bounds& node, bool is_inner, const ContactQuery& q, double box2, Ground ground) {
+bool ContactHierarchy::can_touch_known(const Bounds& node, const ContactQuery& q, bool steady) {
+  if (node.any_normal()) return true;
+  const Vec3 low = node.low(), high = node.high();
+  const bool here = steady || q.margin_m == 0.0 || q.steady_only, is_led = !here && q.core_ahead;
+  const double rank = is_led ? q.rank_m - std::sqrt(glm::dot(q.ahead, q.ahead)) : q.rank_m;
+  const FingerCore& core = is_led ? *q.core_ahead : *q.core;
+  return can_touch(core, {0.5 * (low + high), 0.5 * (high - low), normals_of(node)}, most_lambda_m(core, rank),
+                   here ? 0.0 : q.margin_m);
+}
+
+bool ContactHierarchy::touchable(const Bounds& node, bool is_inner, const ContactQuery& q, double box2) {
   const Vec3 low = node.low(), high = node.high();
   const NormalCone normals = normals_of(node);
   const SurfaceBounds part{0.5 * (low + high), 0.5 * (high - low), normals};
   const bool still = q.margin_m == 0.0 || q.steady_only;
-  const bool is_known = ground != Ground::unknown;
-  const bool here =
-      still || (is_known ? ground == Ground::steady : is_steady_for_core(q, node.least_curvature, normals));
+  const bool here = still || is_steady_for_core(q, node.least_curvature, normals);
   const bool is_led = !here && q.core_ahead;
   const FingerCore& core = is_led ? *q.core_ahead : *q.core;
   const double way = here ? 0.0 : q.margin_m;
@@ -232,15 +278,14 @@ bool ContactHierarchy::touchable(const Bounds& node, bool is_inner, const Contac
   // No rank changes by more than the finger goes.
   const double led = is_led ? std::sqrt(glm::dot(q.ahead, q.ahead)) : 0.0, rank = q.rank_m - led;
   const double inside = q.inside_m < 0.0 ? 0.0 : std::max(0.0, rank - core.reach_m());
-  if (!any_normal && !is_known && (is_beside(core, part, way) || is_behind(core, part, way + inside))) return false;
+  if (!any_normal && (is_beside(core, part, way) || is_behind(core, part, way + inside))) return false;
   if (!any_normal && q.inside_m < 0.0 && rank < core.deep_rank_m() && core.least_rank(normals) > rank) return false;
   // Boxes that are no further off than that can't be so far outside.
   const double far = core.outside_at(rank, way);
   const double off = far + core.inner_m() - led;
   if ((off < 0.0 || box2 > off * off) && core.apart_m(part.middle, part.half) > far) return false;
   if (any_normal) return true;
-  // Single directions tell of parts that are small, or flat, not of others, and wide ones no glance leaves out.
-  constexpr float kFlat = 0.9999f, kWide = 0.8f;
+  constexpr float kWide = 0.8f;  // wide ones no glance leaves out
   if (!is_inner || node.cos_half > kFlat) return can_touch(core, part, most_lambda_m(core, rank), way);
   return node.cos_half < kWide || can_touch_at_a_glance(core, part, way);
 }

@@ -24,6 +24,7 @@
 
 #include "core/base/lanes.h"
 #include "core/base/tolerances.h"
+#include "core/contact/prove/four_core.h"
 #include "core/contact/search_work.h"
 #include "core/finger/finger_core.h"
 #include "core/mesh/contact_mesh.h"
@@ -197,7 +198,10 @@ class ContactHierarchy {
     bool in_floats = false;                 ///< floats hold the squares of its coordinates
     float room_m;                           ///< by which coordinates and distances along an axis may be wrong
     float lever_m = 0.0f, behind_m = 0.0f;  ///< of a core: how far beside and behind the centre its contacts may be
-    std::array<Four, 3> low, high;          ///< of the region, where there is one
+    FourCore core;
+    /// Of parts that are asked for here, and of others: FourParts.
+    float far_here_m = 0.0f, far_ahead_m = 0.0f, deep_here_m = 0.0f, deep_ahead_m = 0.0f;
+    std::array<Four, 3> low, high;  ///< of the region, where there is one
   };
   /// What reach_of_core has found of a part: whether its ground is steady. Then what it asks is not asked again.
   enum class Ground : std::uint8_t { unknown, steady, unsteady };
@@ -218,7 +222,7 @@ class ContactHierarchy {
                       : is_steady(query, node.least_curvature, node.greatest_curvature);
   }
   static Reach reach_of_round(const Node& node, const FourQuery& query);
-  /// Of a finger that is not round, as far as the cones and balls alone tell.
+  /// Of a finger that is not round.
   static Reach reach_of_core(const Node& node, const FourQuery& query);
   static FourMask in_region(const Node& node, const FourQuery& query);
   static Four box_distance2(const Node& node, const FourQuery& query);
@@ -232,16 +236,18 @@ class ContactHierarchy {
     if (!rim_of_.empty()) leave_out_rims(index, query, reach);
     return reach;
   }
-  /// The parts that are reached so far, one by one.
+  /// The parts that are reached so far, one by one: leaves, and what is not known of others.
   static void look_closer(const Node& node, const ContactQuery& query, Reach& reach);
   void leave_out_rims(std::uint32_t index, const ContactQuery& query, Reach& reach) const;
   /// Whether a part can hold a contact. `is_inner`: it is about several triangles, or that is not known.
-  static bool can_hold(const Bounds& node, bool is_inner, const ContactQuery& query, Ground ground = Ground::unknown);
+  static bool can_hold(const Bounds& node, bool is_inner, const ContactQuery& query);
   /// Whether every contact that the query asks for has a normal that the node doesn't have, leaning too far into
   /// `along`.
   static bool misses(const Rim& rim, const Bounds& node, const ContactQuery& query);
   /// Whether a finger that is not round can touch the node, whose box is that far from its centre, squared.
-  static bool touchable(const Bounds& node, bool is_inner, const ContactQuery& query, double box2, Ground ground);
+  static bool touchable(const Bounds& node, bool is_inner, const ContactQuery& query, double box2);
+  /// As far as single directions tell, of a part whose ground is known.
+  static bool can_touch_known(const Bounds& node, const ContactQuery& query, bool steady);
 
   /// Part `place % 4` of node `place / 4`.
   struct Entry {

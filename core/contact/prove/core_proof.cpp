@@ -3,6 +3,7 @@
 #include "core/base/tolerances.h"
 #include "core/contact/contact_rank.h"
 #include "core/contact/prove/certain_margin.h"
+#include "core/contact/prove/core_corner_proof.h"
 #include "core/contact/prove/depth_margin.h"
 #include "core/contact/prove/linear_core.h"
 #include "core/contact/prove/rank_place.h"
@@ -207,12 +208,19 @@ PatchExclusion exclude_pieces(const ContactContext& context, const PnPatch& patc
 
 PatchExclusion exclude_face_by_core(ContactContext& context, const FingerCore& core, std::uint32_t t,
                                     const RankBound& bound, double enough_m) {
-  return exclude_pieces(context, context.cache.patch(t, context.settings.normal_form), core, bound, enough_m);
+  const NormalForm form = context.settings.normal_form;
+  PatchExclusion proof;
+  proof.margin_m = corner_exclusion_by_core(context.cache.mesh(), t, form, core, enough_m);
+  proof.possible = !(proof.margin_m > 0.0 && proof.margin_m >= enough_m);
+  return proof.possible ? exclude_pieces(context, context.cache.patch(t, form), core, bound, enough_m) : proof;
 }
 
 bool core_excludes_at_a_glance(ContactContext& context, const FingerCore& core, std::uint32_t t, const RankBound& bound,
                                double enough_m) {
-  const PatchPiece whole(context.cache.patch(t, context.settings.normal_form));
+  const NormalForm form = context.settings.normal_form;
+  const double by_corners = corner_exclusion_by_core(context.cache.mesh(), t, form, core, enough_m);
+  if (by_corners > 0.0 && by_corners >= enough_m) return true;
+  const PatchPiece whole(context.cache.patch(t, form));
   const PieceLook look = look_at_piece(whole, core, bound, enough_m, false);
   return !look.proof.possible && look.proof.margin_m >= enough_m;
 }

@@ -2,6 +2,7 @@
 
 #include "core/base/tolerances.h"
 #include "core/contact/prove/certain_margin.h"
+#include "core/contact/prove/corner_misses.h"
 #include "core/contact/prove/miss_factors.h"
 
 #include <algorithm>
@@ -194,70 +195,20 @@ bool excludes_at_a_glance(const PnPatch& patch, const Vec3& centre, const RankBo
   return whole.margin(enough_m, enough_m) >= enough_m || bound.way_to(factors.least_height_m()) >= enough_m;
 }
 
-namespace {
-
-/// The misses (c - P) x N at the corners of a face, and the direction of their middle.
-struct CornerMisses {
-  std::array<Vec3, 3> p, n, to_centre, miss;
-  Vec3 middle;
-  double length = 0.0;  ///< of the middle
-  double least = 0.0;   ///< of the misses along it
-
-  CornerMisses(const ContactMesh& mesh, std::uint32_t t, const Vec3& centre)
-      : p(mesh.positions(t)), n(mesh.normals(t)) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      to_centre[k] = centre - p[k];
-      miss[k] = glm::cross(to_centre[k], n[k]);
-    }
-    middle = (miss[0] + miss[1] + miss[2]) / 3.0;
-    length = std::sqrt(glm::dot(middle, middle));
-    const double most = std::min({glm::dot(miss[0], middle), glm::dot(miss[1], middle), glm::dot(miss[2], middle)});
-    if (length > 0.0) least = most / length;
-  }
-
-  /// How far the misses of the whole patch stay clear of zero along the middle: with the normals as they are a cubic,
-  /// less what the points are off the flat triangle: a third of what sides lean out of their ends' planes at most, or
-  /// of a crease's length.
-  double clear(const ContactMesh& mesh, std::uint32_t t, NormalForm form) const {
-    if (!(least > 0.0)) return 0.0;
-    const Vec3 along = middle / length;
-    std::array<Vec3, 6> q;  // (c - P) x N along it is (c - P).q
-    double lean = 0.0;
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint32_t j = (k + 1) % 3;
-      const Vec3 side = p[j] - p[k], sum = n[k] + n[j];
-      const double side2 = glm::dot(side, side), sum2 = glm::dot(sum, sum);
-      if (!(sum2 > 1e-6)) return 0.0;
-      const double share = (form == NormalForm::bernstein ? 1.0 : 0.5) / std::sqrt(sum2);
-      q[k] = glm::cross(n[k], along);
-      q[3 + k] = share * glm::cross(sum - (2.0 * glm::dot(side, sum) / side2) * side, along);
-      const bool smooth = mesh.edge_kind(t, k) == EdgeKind::smooth;
-      lean = std::max(
-          lean, smooth ? std::max(std::abs(glm::dot(side, n[k])), std::abs(glm::dot(side, n[j]))) : std::sqrt(side2));
-    }
-    const auto g = [&](std::size_t point, std::size_t normal) { return glm::dot(to_centre[point], q[normal]); };
-    double smallest = least;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t j = (k + 1) % 3;
-      smallest = std::min(smallest, (g(j, k) + 2.0 * g(k, 3 + k)) / 3.0);
-      smallest = std::min(smallest, (g(k, j) + 2.0 * g(j, 3 + k)) / 3.0);
-    }
-    smallest = std::min(smallest, (g(0, 4) + g(1, 5) + g(2, 3)) / 3.0);
-    return smallest - lean / 3.0;
-  }
-};
-
-}  // namespace
+static CornerMisses misses_of(const ContactMesh& mesh, std::uint32_t t, const Vec3& centre) {
+  return {mesh, t, {centre, centre, centre}};
+}
 
 double corner_exclusion(const ContactMesh& mesh, std::uint32_t t, NormalForm form, const Vec3& centre) {
-  return certain_margin(CornerMisses(mesh, t, centre).clear(mesh, t, form),
-                        rounding_of_margin(centre, mesh.position(t, 0)));
+  const CornerMisses misses = misses_of(mesh, t, centre);
+  if (!(misses.least() > 0.0)) return 0.0;
+  return certain_margin(misses.clear(mesh, t, form), rounding_of_margin(centre, misses.p[0]));
 }
 
 bool corners_exclude(const ContactMesh& mesh, std::uint32_t t, NormalForm form, const Vec3& centre, double enough_m) {
-  const CornerMisses misses(mesh, t, centre);
+  const CornerMisses misses = misses_of(mesh, t, centre);
   const double wanted = enough_m + rounding_of_margin(centre, misses.p[0]);
-  return misses.least > wanted && misses.clear(mesh, t, form) >= wanted;
+  return misses.least() > wanted && misses.clear(mesh, t, form) >= wanted;
 }
 
 }  // namespace tangent

@@ -5,8 +5,10 @@
 #include "core/base/tolerances.h"
 #include "core/contact/prove/clearance_check.h"
 #include "core/contact/prove/contact_hierarchy.h"
+#include "core/contact/prove/core_corner_proof.h"
 #include "core/contact/prove/core_feature_proof.h"
 #include "core/contact/prove/linear_core.h"
+#include "tests/core/creased_meshes.h"
 #include "tests/core/features.h"
 #include "tests/core/fingers.h"
 #include "tests/core/scenes.h"
@@ -150,6 +152,37 @@ TEST_CASE("over a patch the core is linear in the normal but for what is said, a
   }
 }
 
+TEST_CASE("the core's points for control normals are control points of its points over a patch but for what is said") {
+  Random random(80);
+  for (const FingerShape shape : kCoreShapes) {
+    CAPTURE(static_cast<int>(shape));
+    int over = 0, known = 0;
+    double nearest = 0.0;
+    for (int i = 0; i < rounds(40000); ++i) {
+      const PnPatch patch =
+          PatchPiece(make_patch(*ContactMesh::build(bent_triangle(random, random.in(0.0, 0.5))), 0)).patch;
+      const FingerCore core(finger_of(shape), {random.in_cube(0.01), random.orientation()});
+      const CoreControlPoints control(core, patch.normals);
+      if (!(control.off_m < 1e3)) continue;
+      ++known;
+      const Vec2 at = random.barycentric();
+      const double w = 1.0 - at.x - at.y;
+      const auto mixed = [&](const std::array<Vec3, 6>& of) {
+        return w * w * of[n200] + at.x * at.x * of[n020] + at.y * at.y * of[n002] +
+               2.0 * (w * at.x * of[n110] + at.x * at.y * of[n011] + w * at.y * of[n101]);
+      };
+      const CoreSupport there = core.support(unit(mixed(patch.normals)));
+      const double off = glm::distance(there.point, mixed(control.points));
+      over += off > control.off_m * (1.0 + 1e-9) + 1e-12 || there.length < control.least_length_m * (1.0 - 1e-9);
+      nearest = std::max(nearest, off / control.off_m);
+    }
+    MESSAGE(known << " known, off by up to " << nearest << " of what is said");
+    CHECK(over == 0);
+    CHECK(known > 1000);
+    CHECK(nearest > 0.2);
+  }
+}
+
 TEST_CASE("a core that is not as linear over a patch as is asked for is told so, every other as without a limit") {
   Random random(76);
   int within = 0, beyond = 0;
@@ -247,6 +280,49 @@ TEST_CASE("no contact of an ellipsoid or a capsule comes up on a face within the
       }
       CHECK(proved > (rounds(100) == 100 ? 10.0 : 0.0));  // of few rounds the share says little
     }
+  }
+}
+
+TEST_CASE("the corners of a face exclude no contact of an ellipsoid or a capsule, beside creases, too") {
+  Random random(79);
+  std::vector<ContactMesh> meshes = creased_meshes_and_rims();
+  PolygonMesh rough = make_icosphere(0.030, 3);
+  for (Vec3& p : rough.positions) p *= random.in(0.96, 1.04);
+  rough.normals.clear();
+  rough.corner_normal.clear();
+  meshes.push_back(*ContactMesh::build(rough));
+  for (const FingerShape shape : kCoreShapes) {
+    CAPTURE(static_cast<int>(shape));
+    int excluded = 0, all = 0, wrong = 0;
+    double nearest = 0.0;
+    for (const ContactMesh& mesh : meshes)
+      for (int i = 0; i < rounds(20000); ++i) {
+        Finger finger = finger_of(shape);
+        finger.semi_axes_m *= Vec3(random.in(0.2, 2.0), random.in(0.2, 2.0), random.in(0.2, 2.0));
+        finger.half_length_m *= random.in(0.1, 1.5);
+        const NormalForm form = random.below(2) ? NormalForm::bernstein : NormalForm::vlachos;
+        const std::uint32_t t = random.below(mesh.triangle_count());
+        // Half of them on a side, where all else may be clear.
+        const Vec2 inside = random.barycentric();
+        const Vec2 at = random.below(2) ? inside : Vec2(inside.x, random.below(2) ? 0.0 : 1.0 - inside.x);
+        const SurfaceSample s = evaluate(make_patch(mesh, t, form), at.x, at.y);
+        const double depth = random.in(-0.01, 2.0 * finger.reach_m());
+        const FingerPose there = resting_on(finger, s.point, s.normal, depth, random);
+        double gone = 0.0;
+        const double way = random.below(2) ? std::pow(10.0, random.in(-4.5, -1.5)) : 0.0;
+        const FingerPose here = before(finger, there, way, random, gone);
+        const FingerCore core(finger, here);
+        const double enough = random.below(2) ? gone * std::pow(10.0, random.in(-1.0, 1.0)) : 0.0;
+        const double margin = corner_exclusion_by_core(mesh, t, form, core, enough);
+        ++all;
+        excluded += margin > 0.0;
+        wrong += margin > gone * (1.0 + 1e-9) + 1e-12;
+        if (way > 0.0) nearest = std::max(nearest, margin / gone);
+      }
+    MESSAGE(excluded << " of " << all << " excluded, by up to " << nearest << " of the way, " << wrong << " by more");
+    CHECK(wrong == 0);
+    CHECK(excluded > all / 400);
+    CHECK(nearest > 0.4);
   }
 }
 

@@ -1,0 +1,98 @@
+#include "core/contact/prove/four_core.h"
+
+#include "core/contact/prove/float_bounds.h"
+
+namespace tangent {
+namespace {
+
+constexpr float kRatio = 1e-5f;  // far above what a dozen operations in float are rounded by
+
+Four dot(const std::array<Four, 3>& a, const std::array<Four, 3>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Four positive(const Four& x) { return max(x, Four{}); }
+Four least(const Four& a, const Four& b) { return a < b ? a : b; }
+Four absolute(const Four& x) { return max(x, -x); }
+
+}  // namespace
+
+FourCore::FourCore(const FingerCore& core)
+    : ball_(above(core.ball_m())),
+      reach_(below(core.reach_m())),
+      lever_(above(core.lever_m())),
+      longest_(above(core.longest_m())),
+      pair_(above(core.longest_m() * core.width_m())),
+      turns_per_m_(core.turn_within(1.0) > 0.0 ? above(core.turn_within(1.0)) : 0.0f) {
+  const Vec3& axes = core.axes_m();
+  shortest_ = below(std::min({axes.x, axes.y, axes.z}));
+  sharpest_ = below(core.sharpest_m() - core.ball_m());
+  flattest_ = above(core.flattest_m() - core.ball_m());
+  for (int k = 0; k < 3; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    axes_[at] = static_cast<float>(axes[k]);
+    squares_[at] = static_cast<float>(axes[k] * axes[k]);
+    squares_sum_ += squares_[at];
+    for (int j = 0; j < 3; ++j) rotation_[at][static_cast<std::size_t>(j)] = static_cast<float>(core.rotation()[k][j]);
+  }
+}
+
+// As FingerCore::largest_radius.
+Four FourCore::largest_radius(const Four& least_length) const {
+  const Four per = 1.0f / least_length, turned = pair_ * per;
+  const Four radius = least(longest_ * longest_ * per, turned * turned * per);
+  return least_length > Four{} ? least(Four{} + flattest_, radius) : Four{} + flattest_;
+}
+
+// As FingerCore::slide_m of the whole core.
+Four FourCore::slide(const Four& least_length, const Four& way) const {
+  const Four across =
+      max(Four{} + (longest_ - sharpest_), largest_radius(least_length - longest_ * turns_per_m_ * way) - shortest_);
+  const Four rate = turns_per_m_ > 0.0f && lever_ > 0.0f
+                        ? max(Four{} + 1.0f, sqrt(lever_ * lever_ + across * across) / reach_)
+                        : Four{} + 1.0f;
+  return least(rate * way, 2.0f * (way + longest_));
+}
+
+FourMask FourCore::misses(const FourParts& p, float least_cosine) const {
+  const Four zero{};
+  std::array<Four, 3> x, y, n;  // the centre from the middle and y = A N of the cone's axis, both in the finger's frame
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::array<float, 3>& r = rotation_[k];
+    x[k] = p.away[0] * r[0] + p.away[1] * r[1] + p.away[2] * r[2];
+    y[k] = axes_[k] * (p.axis[0] * r[0] + p.axis[1] * r[1] + p.axis[2] * r[2]);
+  }
+  // FingerCore::apart_m.
+  const Four x2 = dot(x, x);
+  const std::array<Four, 3> ax{axes_[0] * x[0], axes_[1] * x[1], axes_[2] * x[2]};
+  const Four ax2 = dot(ax, ax), t = positive(sqrt(ax2) - ax2 / x2) + 1e-5f * squares_sum_;
+  for (std::size_t k = 0; k < 3; ++k) n[k] = -x[k] / (squares_[k] + t);
+  const std::array<Four, 3> an{axes_[0] * n[0], axes_[1] * n[1], axes_[2] * n[2]};
+  Four reach = -dot(n, x) - sqrt(dot(an, an));
+  for (std::size_t j = 0; j < 3; ++j)
+    reach -= p.half[j] * absolute(rotation_[0][j] * n[0] + rotation_[1][j] * n[1] + rotation_[2][j] * n[2]);
+  FourMask missed = (x2 > zero) & (reach > (p.far_m + ball_ + 6.0f * p.room_m) * sqrt((1.0f + kRatio) * dot(n, n)));
+  // FingerCore::least_rank.
+  const Four length2 = dot(y, y), length = sqrt(length2), cosine = p.cos_half;
+  {
+    const std::array<Four, 3> z{axes_[0] * y[0], axes_[1] * y[1], axes_[2] * y[2]};
+    const Four longest2 = zero + longest_ * longest_;
+    const Four across = sqrt(positive(dot(z, z) - length2 * length2) + kRatio * longest2 * length2);
+    const Four other2 = least(longest2, (1.0f + kRatio) * squares_sum_ - length2), turn = 0.5f * (length2 - other2);
+    const Four twice = 2.0f * cosine * cosine - 1.0f, sine = 2.0f * cosine * p.sin_half;
+    const Four turns = sqrt(turn * turn + across * across);
+    const Four within = turn > (twice - kRatio) * turns ? turns : turn * twice + across * sine;
+    const Four most2 = least(longest2, (1.0f + kRatio) * (0.5f * (length2 + other2) + within));
+    missed |= (p.deep_m > zero) & (cosine > least_cosine) & ((1.0f + kRatio) * most2 < p.deep_m * p.deep_m);
+  }
+  // By its cone: is_missed_by_cone in finger_core.cpp.
+  std::array<Four, 3> to_support;
+  for (std::size_t k = 0; k < 3; ++k) to_support[k] = x[k] - axes_[k] * (y[k] / length);
+  const Four away2 = dot(to_support, to_support), along = dot(p.away, p.axis) - length;
+  const Four across = sqrt(positive(away2 - along * along - kRatio * away2));
+  const Four chord = sqrt(positive(2.0f - 2.0f * cosine)), least_length = (1.0f - kRatio) * length - longest_ * chord;
+  const Four moves = least(zero + 2.0f * longest_, 1.12f * chord * largest_radius(least_length));
+  const Four clear =
+      across * cosine - absolute(along) * p.sin_half - (1.0f + kRatio) * (moves + p.radius_m) - 8.0f * p.room_m;
+  missed |= (cosine > least_cosine) & (length2 > zero) & (clear > (1.0f + kRatio) * slide(least_length, p.way_m));
+  return missed;
+}
+
+}  // namespace tangent
