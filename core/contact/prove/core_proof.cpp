@@ -20,12 +20,16 @@ namespace {
 constexpr double kSharpShare = 0.8;  // of the sharpest radius: less deep the finger does not fold over by itself
 
 /// Of a patch's longer side: p is linear to within that, or nothing is gained by taking it for that.
-constexpr double kMostOff = 0.3;
+constexpr double kMostOff = 0.5;
 /// Off by less, a contact that seems possible is one, or so near to one that pieces tell no more.
 constexpr double kLittleOff = 0.05;
 
 /// Of the margin that would be enough: a piece that is known only roughly is not bisected for more.
 constexpr double kPieceShare = 0.1;
+
+/// Of the margin that would be enough: where the corners tell that much, no more is looked for. Larger: dearer looks;
+/// smaller: more of them.
+constexpr double kCornersShare = 0.25;
 
 /// Bisections of a patch, and pieces looked at in all. Along the flank of a thin core no piece is straight before it is
 /// thinner than the flank's normals are apart: there a solve tells more, and costs as much as six pieces.
@@ -41,6 +45,18 @@ SurfaceBounds bounds_of(const PnPatch& patch, const NormalCone& cone) {
   std::array<Vec3, 10> points;
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = patch.control_point(i);
   return bounds_of(points, cone);
+}
+
+/// Whether some normals lean to one end of a core as thin as a capsule's and some to the other: it is not linear there.
+bool turns_over(const FingerCore& core, const std::array<Vec3, 6>& normals) {
+  if (!is_thin(core)) return false;
+  double least = 1.0, most = -1.0;
+  for (const Vec3& n : normals) {
+    const double lean = glm::dot(n, core.long_axis());
+    least = std::min(least, lean);
+    most = std::max(most, lean);
+  }
+  return least < 0.0 && most > 0.0;
 }
 
 /// The same, and by how far the centre is behind the part's planes.
@@ -86,14 +102,7 @@ PieceLook look_at_piece(const PatchPiece& piece, const FingerCore& core, const R
   const Vec3 sum = patch.normals[n200] + patch.normals[n020] + patch.normals[n002];
   const bool deep = bound.rank_m < core.deep_rank_m() || glm::dot(core.centre() - patch.origin, sum) < 0.0;
   double at_once = 0.0;
-  // Of pieces of a thin core's patch that tells nothing.
-  const bool touches = piece.depth == 0 || !is_thin(core);
-  if (touches || deep) {
-    const SurfaceBounds bounds = bounds_of(patch, cone_of(patch.normals));
-    if (deep) at_once = certain_margin(margin_by_depth(core, bounds, bound), rounding);
-    if (touches && !(at_once > 0.0 && at_once >= enough_m))
-      at_once = std::max(at_once, certain_margin(touch_margin(core, bounds, enough_m), rounding));
-  }
+  if (deep) at_once = certain_margin(margin_by_depth(core, bounds_of(patch, cone_of(patch.normals)), bound), rounding);
   PieceLook look;
   look.proof.margin_m = at_once;
   look.proof.possible = !(at_once > 0.0);
@@ -104,7 +113,9 @@ PieceLook look_at_piece(const PatchPiece& piece, const FingerCore& core, const R
   if (look.curved) return look;
   const Vec3 axis = sum / std::sqrt(sum2);
   const double size2 = std::max(glm::dot(sides[0], sides[0]), glm::dot(sides[1], sides[1]));
-  const LinearCore linear = linear_core(core, patch.normals, axis, kMostOff * std::sqrt(size2));
+  const LinearCore linear = turns_over(core, patch.normals)
+                                ? LinearCore{}
+                                : linear_core(core, patch.normals, axis, kMostOff * std::sqrt(size2));
   look.curved = !(linear.off_m * linear.off_m < kMostOff * kMostOff * size2);
   look.clear = linear.off_m * linear.off_m < kLittleOff * kLittleOff * size2;
   const LinearCore segment = look.curved ? segment_core(core, patch.normals, axis) : LinearCore{};
@@ -209,20 +220,14 @@ PatchExclusion exclude_pieces(const ContactContext& context, const PnPatch& patc
 PatchExclusion exclude_face_by_core(ContactContext& context, const FingerCore& core, std::uint32_t t,
                                     const RankBound& bound, double enough_m) {
   const NormalForm form = context.settings.normal_form;
+  const double wanted = kCornersShare * enough_m;
+  const double by_corners = corner_exclusion_by_core(context.cache.mesh(), t, form, core, wanted);
   PatchExclusion proof;
-  proof.margin_m = corner_exclusion_by_core(context.cache.mesh(), t, form, core, enough_m);
-  proof.possible = !(proof.margin_m > 0.0 && proof.margin_m >= enough_m);
-  return proof.possible ? exclude_pieces(context, context.cache.patch(t, form), core, bound, enough_m) : proof;
-}
-
-bool core_excludes_at_a_glance(ContactContext& context, const FingerCore& core, std::uint32_t t, const RankBound& bound,
-                               double enough_m) {
-  const NormalForm form = context.settings.normal_form;
-  const double by_corners = corner_exclusion_by_core(context.cache.mesh(), t, form, core, enough_m);
-  if (by_corners > 0.0 && by_corners >= enough_m) return true;
-  const PatchPiece whole(context.cache.patch(t, form));
-  const PieceLook look = look_at_piece(whole, core, bound, enough_m, false);
-  return !look.proof.possible && look.proof.margin_m >= enough_m;
+  if (!(by_corners > 0.0 && by_corners >= wanted))
+    proof = exclude_pieces(context, context.cache.patch(t, form), core, bound, enough_m);
+  proof.margin_m = std::max(proof.margin_m, by_corners);
+  if (by_corners > 0.0) proof.possible = false;
+  return proof;
 }
 
 bool can_ask_steady(const FingerCore& core, double rank_m) {

@@ -18,11 +18,6 @@ namespace tangent {
 PatchExclusion exclude_face_by_core(ContactContext& context, const FingerCore& core, std::uint32_t t,
                                     const RankBound& bound, double enough_m);
 
-/// Whether a core within `enough_m` of that one has no contact of a rank under `bound` on the face of triangle
-/// t, as far as a glance tells: without bisection.
-bool core_excludes_at_a_glance(ContactContext& context, const FingerCore& core, std::uint32_t t, const RankBound& bound,
-                               double enough_m);
-
 /// Whether ground that is steady for this finger may be asked only for what it holds now: contacts deeper than the
 /// finger's sharpest radius may fold anywhere, but one that comes up that deep was never entered (decide.h).
 bool can_ask_steady(const FingerCore& core, double rank_m);

@@ -62,8 +62,8 @@ bool excludes_at_a_glance(const PnPatch& patch, const Vec3& centre, const RankBo
 /// exclude_contact for a patch that stands for another: contacts are stable or not on a triangle with these sides, and
 /// `centre` is wrong for each normal, across the middle of the corners' normals by no more than a vector in the hull of
 /// +-`spread`, another in that of +-`bend`, and `rest_m`; margins are what is left beside that. Without `place_wanted`
-/// the search ends where the first part can't be excluded, and of a possible contact nothing else is told; nor is a
-/// least height that is no more than `height_matters_m`.
+/// the patch is looked at as a whole only, and of a possible contact nothing else is told; nor is a least height that
+/// is no more than `height_matters_m`.
 struct StandIn {
   std::array<Vec3, 2> sides;
   std::array<Vec3, 6> spread;

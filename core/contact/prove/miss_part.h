@@ -80,11 +80,6 @@ struct Part {
   }
 
   double margin(double enough_m, double most_m, const NoSlack&) const { return margin(enough_m, most_m); }
-  /// Whether it is in vain to look at the part, or at any that it consists of.
-  bool in_vain(const Slack& slack) const {
-    return !slack.place_wanted &&
-           (slack.may_be_zero(at_corner(0)) || slack.may_be_zero(at_corner(1)) || slack.may_be_zero(at_corner(2)));
-  }
   /// The same of f known but for that.
   double margin(double enough_m, double, const Slack& slack) const {
     const Vec2 f0 = at_corner(0), f1 = at_corner(1), f2 = at_corner(2);

@@ -2,6 +2,7 @@
 
 #include "core/contact/contact_rank.h"
 #include "core/contact/prove/certain_margin.h"
+#include "core/contact/prove/core_corner_proof.h"
 #include "core/contact/prove/core_feature_proof.h"
 #include "core/contact/prove/core_proof.h"
 #include "core/contact/prove/feature_proof.h"
@@ -155,10 +156,13 @@ bool excludes_at_a_glance(ContactContext& context, const FingerCore* core, const
     tests += feature.tests;
     return feature.margin_m >= enough_m;
   }
-  if (core) return core_excludes_at_a_glance(context, *core, part.triangle, bound, enough_m);
-  const Vec3& centre = context.pose.position;
   const ContactMesh& mesh = context.cache.mesh();
   const NormalForm form = context.settings.normal_form;
+  if (core) {  // a closer look tells little more: on a random body 1 in 14 of the rest
+    const double by_corners = corner_exclusion_by_core(mesh, part.triangle, form, *core, enough_m);
+    return by_corners > 0.0 && by_corners >= enough_m;
+  }
+  const Vec3& centre = context.pose.position;
   return corners_exclude(mesh, part.triangle, form, centre, enough_m) ||
          even_exclusion(mesh, part.triangle, centre) >= enough_m ||
          excludes_at_a_glance(context.cache.patch(part.triangle, form), centre, bound, enough_m);
