@@ -22,10 +22,10 @@ constexpr double kSharpShare = 0.8;  // of the sharpest radius: less deep the fi
 /// Of a patch's longer side: p is linear to within that, or nothing is gained by taking it for that.
 constexpr double kMostOff = 0.5;
 /// Off by less, a contact that seems possible is one, or so near to one that pieces tell no more.
-constexpr double kLittleOff = 0.05;
+constexpr double kLittleOff = 0.1;
 
 /// Of the margin that would be enough: a piece that is known only roughly is not bisected for more.
-constexpr double kPieceShare = 0.1;
+constexpr double kPieceShare = 0.05;
 
 /// Of the margin that would be enough: where the corners tell that much, no more is looked for. Larger: dearer looks;
 /// smaller: more of them.
@@ -33,7 +33,7 @@ constexpr double kCornersShare = 0.25;
 
 /// Bisections of a patch, and pieces looked at in all. Along the flank of a thin core no piece is straight before it is
 /// thinner than the flank's normals are apart: there a solve tells more, and costs as much as six pieces.
-constexpr int kPieceDepth = 6, kPieceDepthThin = 3, kPieces = 40;
+constexpr int kPieceDepth = 6, kPieceDepthThin = 2, kPieces = 40;
 
 SurfaceBounds bounds_of(std::span<const Vec3> points, const NormalCone& cone) {
   Box box;
