@@ -1,7 +1,7 @@
 // What the parts of a search cost, counted and not timed, so that how much of it a tick does is the same on every
 // machine and whatever is cached. The unit is about a nanosecond of the machine that the figures of the page on
-// measurements are from: least squares over 23,841 searches in spot, the fandisk, the bunny, rough ground and a cone of
-// slivers, of which 8 in 10 of over 20 us took 0.8 to 1.8 times what is counted for them.
+// measurements are from: least squares over 26,465 searches in spot, the fandisk, the bunny and two scanned heads, of
+// which 8 in 10 of over 20 us took 0.8 to 1.5 times what is counted for them.
 #pragma once
 
 #include <algorithm>
@@ -21,8 +21,8 @@ struct SearchWork {
   /// the finger moves.
   double late, most_late;
 
-  static constexpr SearchWork of_round() { return {60, 100, 70, 200, 0, 220, 2.0, 25.0}; }
-  static constexpr SearchWork of_core() { return {120, 100, 100, 400, 300, 700, 5.0, 100.0}; }
+  static constexpr SearchWork of_round() { return {55, 100, 110, 100, 0, 150, 2.0, 25.0}; }
+  static constexpr SearchWork of_core() { return {130, 100, 150, 300, 300, 600, 5.0, 100.0}; }
 };
 
 /// In one tick. A search that takes more goes on at the next. Larger: late ticks; smaller: more ticks that do not know

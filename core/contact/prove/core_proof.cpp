@@ -105,6 +105,7 @@ PieceLook look_at_piece(const PatchPiece& piece, const FingerCore& core, const R
   if (deep) at_once = certain_margin(margin_by_depth(core, bounds_of(patch, cone_of(patch.normals)), bound), rounding);
   PieceLook look;
   look.proof.margin_m = at_once;
+  look.proof.by_rank = true;
   look.proof.possible = !(at_once > 0.0);
   if (at_once > 0.0 && at_once >= enough_m) return look;
   const std::array<Vec3, 2> sides{patch.offsets[b030], patch.offsets[b003]};
@@ -142,6 +143,7 @@ PieceLook look_at_piece(const PatchPiece& piece, const FingerCore& core, const R
                             : core.way_within(core.longest_m(), linear.least_length_m, proof.margin_m);
   look.proof = proof;
   look.proof.margin_m = std::max({at_once, shallow, missed});
+  look.proof.by_rank = std::max(at_once, shallow) > missed;
   look.proof.possible = !(look.proof.margin_m > 0.0) && (proof.possible || look.curved);
   look.proof.height_m = wrong;
   return look;
@@ -205,6 +207,7 @@ PatchExclusion exclude_pieces(const ContactContext& context, const PnPatch& patc
       continue;
     }
     result.margin_m = std::min(result.margin_m, look.proof.margin_m);
+    result.by_rank = result.by_rank || look.proof.by_rank;
     if (!look.proof.possible) continue;
     places.add(context, core, patch,
                look.curved ? piece.at(1.0 / 3.0, 1.0 / 3.0) : piece.at(look.proof.u, look.proof.v));
@@ -225,8 +228,11 @@ PatchExclusion exclude_face_by_core(ContactContext& context, const FingerCore& c
   PatchExclusion proof;
   if (!(by_corners > 0.0 && by_corners >= wanted))
     proof = exclude_pieces(context, context.cache.patch(t, form), core, bound, enough_m);
-  proof.margin_m = std::max(proof.margin_m, by_corners);
   if (by_corners > 0.0) proof.possible = false;
+  if (by_corners >= proof.margin_m) {
+    proof.margin_m = by_corners;
+    proof.by_rank = false;
+  }
   return proof;
 }
 

@@ -25,15 +25,17 @@ void bisect_parts(const miss::Part& whole, const miss::Ground& ground, const mis
   stack[size++] = whole;
   double margin = miss::kUnbounded;
   double smallest = miss::kUnbounded;
-  result.possible = false;
+  result.possible = result.by_rank = false;
   for (int tests = 0; size > 0; ++tests) {
     ++result.tests;
     const miss::Part& part = stack[--size];
     double here = 0.0;
     if (tests > 0) {  // the whole's was asked for
       if constexpr (Slack::kNone) here = certain_margin(bound.way_to(distances.least(part)), rounding_m);
+      const double by_rank = here;
       if (!(here > 0.0 && here >= std::min(enough_m, margin)))
         here = std::max(here, certain_margin(part.margin(enough_m, margin, slack), rounding_m));
+      result.by_rank = result.by_rank || (by_rank > 0.0 && by_rank >= here);
     }
     if (here > 0.0) {
       margin = std::min(margin, here);
@@ -108,8 +110,9 @@ static PatchExclusion exclude(const PnPatch& patch, const miss::Factors& factors
   }
   result.tests = 1;
   const miss::Part whole = factors.whole();
-  result.margin_m =
-      std::max(behind_m, certain_margin(whole.margin(enough_m, miss::kUnbounded, slack), factors.rounding_m));
+  const double missed = certain_margin(whole.margin(enough_m, miss::kUnbounded, slack), factors.rounding_m);
+  result.margin_m = std::max(behind_m, missed);
+  result.by_rank = behind_m > missed;
   if (result.margin_m > 0.0) result.possible = false;
   if (result.margin_m > 0.0 && result.margin_m >= enough_m) return result;
   result.least_height_m = least_height_m(factors, slack);
@@ -145,6 +148,7 @@ PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double 
   if (behind_m > 0.0 && behind_m >= enough_m) {
     PatchExclusion result;
     result.margin_m = behind_m;
+    result.by_rank = true;
     result.possible = false;
     return result;
   }
@@ -175,14 +179,6 @@ PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double 
   }
   PatchFront front;
   return exclude(patch, factors, enough_m, kEveryRank, 0.0, slack, stands_for.sides, front);
-}
-
-bool excludes_at_a_glance(const PnPatch& patch, const Vec3& centre, const RankBound& bound, double enough_m) {
-  if (bound.way_to(least_distance(patch, centre)) >= enough_m + rounding_of_margin(centre, patch.origin)) return true;
-  miss::Factors factors;
-  if (!factors.set(patch, centre)) return false;
-  const miss::Part whole = factors.whole();
-  return whole.margin(enough_m, enough_m) >= enough_m || bound.way_to(factors.least_height_m()) >= enough_m;
 }
 
 static CornerMisses misses_of(const ContactMesh& mesh, std::uint32_t t, const Vec3& centre) {

@@ -21,8 +21,9 @@
 namespace tangent {
 
 struct PatchExclusion {
-  double margin_m = 0.0;        ///< no centre nearer than this to c has a contact on the face; 0: not excluded
+  double margin_m = 0.0;        ///< no centre nearer than this has a contact on the face that counts; 0: not excluded
   double least_height_m = 0.0;  ///< lower bound of h of any contact on the face with h >= 0
+  bool by_rank = false;         ///< there may be one nearer that does not count: the margin is what its rank leaves
   bool possible = true;         ///< a stable contact may be there, near (u, v), with a height near height_m
   double u = 1.0 / 3.0, v = 1.0 / 3.0;
   Vec3 point{0.0};        ///< of the patch there
@@ -54,10 +55,6 @@ PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double 
 
 /// Lower bound of the distance of a centre from the patch, m: a contact on it ranks no less.
 double least_distance(const PnPatch& patch, const Vec3& centre);
-
-/// Whether no centre nearer than `enough_m` has a contact of a rank under `bound` on the face, as far as a glance
-/// tells: without bisection.
-bool excludes_at_a_glance(const PnPatch& patch, const Vec3& centre, const RankBound& bound, double enough_m);
 
 /// exclude_contact for a patch that stands for another: contacts are stable or not on a triangle with these sides, and
 /// `centre` is wrong for each normal, across the middle of the corners' normals by no more than a vector in the hull of

@@ -185,15 +185,15 @@ struct Question {
   bool glance;  ///< a margin under enough_m is worth nothing
 };
 
-double edge_margin(const Question& q, std::uint32_t k, int& tests) {
+FeatureExclusion edge_margin(const Question& q, std::uint32_t k) {
   double safe = q.bound.way_to(edge_distance(q.mesh, q.t, k, q.centre));
-  if (safe > 0.0 && safe >= q.enough_m) return safe;
-  tests = kTestsOfEdge;
+  if (safe > 0.0 && safe >= q.enough_m) return {safe, true, 0};
   const PnPatch& patch = q.cache.patch(q.t, q.form);
   const std::array<Vec3, 4> curve = edge_curve(q.mesh, patch, q.t, k);
   const double wanted = q.enough_m + q.rounding_m;
   safe = q.bound.way_to(curve_distance(curve, q.centre, 0.0, 0.0, 0));
-  if (safe > 0.0 && safe >= wanted) return safe - q.rounding_m;
+  if (safe > 0.0 && safe >= wanted) return {safe - q.rounding_m, true, kTestsOfEdge};
+  const double behind = safe;
   const EdgeEnds ends = edge_ends(q.mesh, patch, q.t, k);
   safe = std::max(safe, beyond_ends(ends, q.centre));
   if (safe < wanted) safe = std::max(safe, over_face(ends, q.centre));
@@ -202,22 +202,24 @@ double edge_margin(const Question& q, std::uint32_t k, int& tests) {
     const PnPatch& beside = q.cache.patch(other.triangle, q.form);
     safe = std::max(safe, over_face(edge_ends(q.mesh, beside, other.triangle, other.edge), q.centre));
   }
+  bool by_rank = behind >= safe;
   if (safe < wanted) {
     const double known = q.bound.after(std::max(0.0, q.glance ? wanted : safe));
     const double distance = curve_distance(curve, q.centre, known, q.bound.after(wanted), kCurveHalvings);
+    by_rank = by_rank || q.bound.way_to(distance) > safe;
     safe = std::max(safe, q.bound.way_to(distance));
   }
-  return certain_margin(safe, q.rounding_m);
+  return {certain_margin(safe, q.rounding_m), by_rank, kTestsOfEdge};
 }
 
-double vertex_margin(const Question& q, std::uint32_t k, int& tests) {
+FeatureExclusion vertex_margin(const Question& q, std::uint32_t k) {
   const Vec3 d = q.centre - q.mesh.position(q.t, k);
-  double safe = q.bound.way_to(std::sqrt(glm::dot(d, d)));
+  const double behind = q.bound.way_to(std::sqrt(glm::dot(d, d)));
+  double safe = behind;
   int faces = 0;
   if (safe < q.enough_m || !(safe > 0.0))
     safe = std::max(safe, vertex_pull(q.mesh, q.t, k, q.centre, q.enough_m + q.rounding_m, faces));
-  tests = faces / kFacesOfTest;
-  return certain_margin(safe, q.rounding_m);
+  return {certain_margin(safe, q.rounding_m), behind >= safe, faces / kFacesOfTest};
 }
 
 }  // namespace
@@ -228,10 +230,7 @@ FeatureExclusion exclude_feature_contacts(PatchCache& cache, const TriangleFeatu
   const std::uint32_t t = feature.triangle;
   const Question question{
       cache, mesh, t, form, centre, bound, enough_m, rounding_of_margin(centre, mesh.position(t, 0)), glance};
-  FeatureExclusion result;
-  result.margin_m = feature.is_corner ? vertex_margin(question, feature.number, result.tests)
-                                      : edge_margin(question, feature.number, result.tests);
-  return result;
+  return feature.is_corner ? vertex_margin(question, feature.number) : edge_margin(question, feature.number);
 }
 
 }  // namespace tangent

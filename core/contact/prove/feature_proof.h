@@ -18,7 +18,8 @@ struct TriangleFeature {
 struct FeatureExclusion {
   /// How far the centre may go until a contact that counts can come up there; 0 where one may be there now.
   double margin_m = 0.0;
-  int tests = 0;  ///< what was looked at, in tests of a patch (search_work.h)
+  bool by_rank = true;  ///< as of PatchExclusion
+  int tests = 0;        ///< what was looked at, in tests of a patch (search_work.h)
 };
 
 /// Asks for contacts of a rank under `bound`. On an edge, its ends left out, none is where the centre is beyond its

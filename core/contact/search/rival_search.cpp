@@ -93,7 +93,7 @@ void RivalSearch::once_more(const Gone& gone, RivalResult& result) {
     const Look look = look_at(part, clearance.margin_m, result);
     context_.brief = false;
     const double then_m = watched.margin_m + gone.now_m;
-    const bool held_none = !watched.holds_rival && !look.holds_rival &&
+    const bool held_none = !watched.holds_rival && !look.holds_rival && !look.by_rank &&
                            stayed_within(then_m, gone.before_m, gone.now_m, look.margin_m, context_.moved_m);
     if (!held_none && !(watched.holds_rival && look.holds_rival)) passed[passed_count++] = watched.triangle;
     if (!look.watch) clearance.margin_m = std::min(clearance.margin_m, look.margin_m);
@@ -166,7 +166,7 @@ SolverSettings RivalSearch::robust(SolverSettings settings) {
 }
 
 WatchedTriangle RivalSearch::watched_triangle(const PartOfTriangle& part, const Look& look) {
-  return {part.triangle & 0xFFFFFFFu, static_cast<std::uint32_t>(part.part) & 7u, look.holds_rival,
+  return {part.triangle & 0xFFFFFFFu, static_cast<std::uint32_t>(part.part) & 7u, look.holds_rival || look.by_rank,
           static_cast<float>(look.margin_m)};
 }
 
@@ -303,7 +303,7 @@ Look RivalSearch::look_at(PartOfTriangle part, double enough_m, const RankBound&
       return part.part == SearchPart::region ? Look{} : own_slope(enough_m);
   const PatchExclusion proof = exclude_part(context_, part, up_to, enough_m);
   work_ += cost_.test * proof.tests;
-  if (!proof.possible && proof.margin_m > 0.0) return {proof.margin_m, false, true};
+  if (!proof.possible && proof.margin_m > 0.0) return {proof.margin_m, false, true, proof.by_rank};
   if (!proof.possible) return {kUnresolvedMargin * slope_m_, true, true};
   if (proof.height_m != 0.0 && is_tracked(t, proof)) return own_slope(enough_m);
   const double guess = proof.height_m >= 0.0 ? proof.height_m : context_.finger.reach_m() - proof.height_m;

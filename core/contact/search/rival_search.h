@@ -25,6 +25,7 @@ struct Look {
   double margin_m = std::numeric_limits<double>::infinity();
   bool holds_rival = false;  ///< it holds a contact, or may, that is not deep enough
   bool watch = false;        ///< to be looked at by itself then; otherwise only a search of everything tells
+  bool by_rank = false;      ///< it may hold one that does not count yet (PatchExclusion)
 };
 
 class RivalSearch {

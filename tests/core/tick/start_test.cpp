@@ -83,9 +83,10 @@ void hold(const ScenePtr& scene, const std::vector<Place>& places, const Vec3* l
     held.endless += ticks == kMostTicks;
     held.unlike += is_converged(out.status) != is_converged(whole.status);
     const Finger& finger = place.preset.finger;
+    // With force from all places the one that is shown may be shallower by a tremor.
+    const double held_by = (kTremor + 0.25) * place.preset.solver.switch_hysteresis_m;
     held.shallower += is_converged(out.status) && is_converged(whole.status) &&
-                      rank_of(finger, place.pose, out) >
-                          rank_of(finger, place.pose, whole) + 1.25 * place.preset.solver.switch_hysteresis_m;
+                      rank_of(finger, place.pose, out) > rank_of(finger, place.pose, whole) + held_by;
   }
 }
 

@@ -171,23 +171,6 @@ TEST_CASE("under a centre with a stable contact on it a face may hold one, howev
   CHECK(beside < stable / 10);  // a patch may hold two
 }
 
-TEST_CASE("a glance excludes no contact that comes up within what was asked for") {
-  int excluded = 0, wrong = 0;
-  at_random_places(126, rounds(100000), [&](Random& random, const PlaceOnPatch& at) {
-    const auto& [patch, s, size] = at;
-    const double h = size * random.in(0.0, 5.0);
-    const double gone = size * std::pow(10.0, random.in(-3.0, 0.7)), enough = gone * random.in(0.1, 3.0);
-    const RankBound bound{size * random.in(0.0, 5.0), random.below(2) ? 1.0 : 2.0};
-    const Vec3 centre = s.point + h * s.normal + gone * random.direction();
-    if (!excludes_at_a_glance(patch, centre, bound, enough)) return;
-    ++excluded;
-    // What counts has risen by (closing - 1) of the way at most.
-    wrong += enough > gone * (1.0 + 1e-9) && h < bound.rank_m + (bound.closing - 1.0) * gone - 1e-9 * size;
-  });
-  CHECK(excluded > rounds(100000) / 20);
-  CHECK(wrong == 0);
-}
-
 TEST_CASE(
     "parts that rank behind a bound are left out by how far, and no stable contact before it comes up within that") {
   int wider = 0, wrong = 0, told = 0;

@@ -1,8 +1,11 @@
 // Proofs about the parts of triangles with crease edges.
 #include "core/contact/prove/triangle_proof.h"
 
+#include "core/contact/contact_rank.h"
 #include "core/contact/follow/step_rule.h"
+#include "core/contact/prove/clearance_check.h"
 #include "core/mesh/vertex_ring.h"
+#include "tests/core/creased_meshes.h"
 #include "tests/core/features.h"
 #include "tests/core/fingers.h"
 #include "tests/core/scenes.h"
@@ -134,4 +137,73 @@ TEST_CASE("what a look at creases and corners costs is counted, and none where a
   }
   CHECK(near > 1000);
   CHECK(far == 0);
+}
+
+TEST_CASE("a margin that is not said to be a rank's keeps contacts of every rank away, those that don't count, too") {
+  Random random(29);
+  std::vector<ContactMesh> meshes = creased_meshes_and_rims();
+  meshes.push_back(*ContactMesh::build(make_icosphere(0.030, 3)));
+  const auto before = [&](const Finger& finger, const FingerPose& there, double way_m, double& gone_m) {
+    const double turns = is_round(finger) ? 0.0 : random.in(0.0, 1.0);
+    FingerPose pose = there;
+    pose.position -= (1.0 - turns) * way_m * random.direction();
+    pose.orientation =
+        glm::normalize(glm::angleAxis(turns * way_m / finger.reach_m(), random.direction()) * there.orientation);
+    gone_m = glm::distance(pose.position, there.position) + turned_m(finger, pose.orientation, there.orientation);
+    return pose;
+  };
+  for (const FingerShape shape : {FingerShape::sphere, FingerShape::ellipsoid, FingerShape::capsule}) {
+    CAPTURE(static_cast<int>(shape));
+    Finger finger = finger_of(shape);
+    int wrong = 0, by_rank = 0, by_miss = 0;
+    for (const ContactMesh& mesh : meshes) {
+      PatchCache cache(mesh);
+      const SolverSettings settings;
+      for (int i = 0; i < rounds(8000); ++i) {
+        PartOfTriangle part{random.below(mesh.triangle_count())};
+        const std::uint32_t k = random.below(3);
+        SurfaceSample s;
+        const int kind = static_cast<int>(random.below(3));
+        if (kind == 0) {
+          const Vec2 at = random.barycentric();
+          cache.sample(part.triangle, settings.normal_form, at.x, at.y, s);
+        } else if (kind == 1 && mesh.edge_kind(part.triangle, k) != EdgeKind::smooth) {
+          part.part = side_part(k);
+          const std::optional<SurfaceSample> on_fan = place_on_fan(cache, part.triangle, k, random);
+          if (!on_fan) continue;
+          s = *on_fan;
+        } else {
+          const std::optional<Vec3> normal = normal_of_corner(mesh, part.triangle, k, random);
+          if (!normal) continue;
+          part.part = corner_part(k);
+          s.point = mesh.position(part.triangle, k);
+          s.normal = *normal;
+        }
+        const double depth = random.in(-0.010, 0.010);
+        const FingerPose there = resting_on(finger, s.point, s.normal, depth, random);
+        const PlaneContact contact = contact_on_plane(finger, there, s.point, s.normal);
+        if (part.part == SearchPart::face && is_round(finger) && !normal_bend(s).at_height(contact.height_m).stable())
+          continue;
+        if (part.part != SearchPart::face && contact.height_m < 0.0) continue;  // a fan is touched from outside only
+        const double rank = contact_rank(finger, contact) + random.in(-5e-3, 1e-3);
+        double gone = 0.0;
+        const FingerPose here = before(finger, there, random.below(2) ? random.in(0.0, 2e-3) : 0.0, gone);
+        ContactContext context{cache, settings, finger, here, mesh.origin()};
+        std::optional<FingerCore> core;
+        if (!is_round(finger)) context.core = &core.emplace(finger, here);
+        const double enough = random.below(2) ? random.in(0.0, 4e-3) : 0.0;
+        const PatchExclusion proof = exclude_part(context, part, {rank, random.below(2) ? 1.0 : 2.0}, enough);
+        if (!(proof.margin_m > gone * (1.0 + 1e-9) + 1e-12)) {
+          by_miss += proof.margin_m > 0.0 && !proof.by_rank;
+          continue;
+        }
+        by_rank += proof.by_rank;
+        wrong += !proof.by_rank;
+      }
+    }
+    MESSAGE(by_rank << " behind by rank, " << by_miss << " excluded up to their contacts, " << wrong << " wrongly");
+    CHECK(wrong == 0);
+    CHECK(by_rank > 100);
+    CHECK(by_miss > 100);
+  }
 }

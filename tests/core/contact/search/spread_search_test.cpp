@@ -212,7 +212,7 @@ TEST_CASE("an ellipsoid or a capsule that loses its contact on spikes looks for 
     constexpr int ticks = 3000;
     for (int i = 0; i < ticks; ++i) {
       const double t = 1e-3 * i;
-      const Vec3 at(0.025 * std::sin(6.2 * t), 0.025 * std::cos(4.6 * t), 0.002 + 0.003 * std::sin(22.0 * t));
+      const Vec3 at(0.025 * std::sin(19.0 * t), 0.025 * std::cos(14.0 * t), 0.002 + 0.003 * std::sin(22.0 * t));
       const TickOutput out = stepper.step(preset, at_position(t, at), state);
       (i > 0 ? most : first) = std::max(i > 0 ? most : first, static_cast<int>(out.iterations));
       facing += out.status == TickStatus::facing;
