@@ -16,13 +16,6 @@ double longest_side(const ContactMesh& mesh, std::uint32_t t) {
   return std::sqrt(std::max({square(p[1] - p[0]), square(p[2] - p[1]), square(p[0] - p[2])}));
 }
 
-/// Whether triangle t has the edge or vertex that the known contact rests on.
-bool shares_feature(const ContactMesh& mesh, std::uint32_t t, const KnownContact& known) {
-  if (known.feature == Feature::edge) return mesh.across(known.triangle, known.side).triangle == t;
-  const std::uint32_t vertex = mesh.vertex(known.triangle, known.side);
-  return mesh.vertex(t, 0) == vertex || mesh.vertex(t, 1) == vertex || mesh.vertex(t, 2) == vertex;
-}
-
 /// Whether the way from a to b keeps clear of a fold at that height: 1 + h k along it, as the two normals tell.
 bool unfolded(const Vec3& point_a, const Vec3& normal_a, const Vec3& point_b, const Vec3& normal_b, double height_m) {
   const Vec3 along = point_b - point_a;
@@ -79,8 +72,7 @@ KnownContact known_contact(const ContactMesh& mesh, const TrackedPlane& plane, d
 
 bool same_basin(PatchCache& cache, NormalForm form, std::uint32_t t, const KnownContact& known, double margin_m) {
   const ContactMesh& mesh = cache.mesh();
-  if (t == known.triangle) return true;
-  if (known.feature != Feature::face && shares_feature(mesh, t, known)) return true;
+  if (t == known.triangle && known.feature == Feature::face) return true;
   const double widest = known.size_m + kGentleReach * margin_m;
   for (std::uint32_t k = 0; k < 3; ++k) {  // most fail here
     const Vec3 along = mesh.position(t, k) - known.point;

@@ -272,19 +272,15 @@ bool RivalSearch::holds_known(const PartOfTriangle& part, const KnownContact& kn
   }
   if (known.feature != Feature::vertex || part.part == SearchPart::face) return false;
   const std::uint32_t vertex = mesh.vertex(known.triangle, known.side);
-  if (is_corner(part.part)) return mesh.vertex(t, corner_of(part.part)) == vertex;
-  const std::uint32_t k = side_of(part.part);
-  return mesh.vertex(t, k) == vertex || mesh.vertex(t, (k + 1) % 3) == vertex;
+  return is_corner(part.part) && mesh.vertex(t, corner_of(part.part)) == vertex;
 }
 
 bool RivalSearch::is_slope_of(std::size_t i, const PartOfTriangle& part, double margin_m) {
-  if (part.part == SearchPart::face) return leads_to(i, part.triangle, margin_m);
   const KnownContact& known = known_[i];
+  if (part.part == SearchPart::face) return leads_to(i, part.triangle, margin_m);
   if (holds_known(part, known)) return true;
+  if (!core_ || !is_corner(part.part)) return false;
   const ContactMesh& mesh = context_.cache.mesh();
-  if (is_side(part.part))
-    return known.triangle == part.triangle || known.triangle == mesh.across(part.triangle, side_of(part.part)).triangle;
-  if (part.part == SearchPart::region) return false;
   const std::uint32_t vertex = mesh.vertex(part.triangle, corner_of(part.part));
   return mesh.vertex(known.triangle, 0) == vertex || mesh.vertex(known.triangle, 1) == vertex ||
          mesh.vertex(known.triangle, 2) == vertex;
@@ -478,8 +474,10 @@ Look RivalSearch::solve_from(const PartOfTriangle& part, const PatchExclusion& p
   if (!r.converged()) return {kUnresolvedMargin * slope_m_, true, true};
   if (is_followed(r.plane.point)) {
     // Beside a fold a solve may run past a contact, or where one is about to come up, to the tracked one.
-    const bool ran_past = interior && r.plane.triangle != part.triangle &&
-                          !(is_beside(proof, r.plane.point) && (core_ || is_as_high(proof, r.contact.height_m)));
+    // On a crease it may come up after that, too. Of a finger that is not round that is looked at where it is cheap.
+    const bool ran_past = (!core_ && part.part != SearchPart::face) ||
+                          ((!core_ || interior) && r.plane.triangle != part.triangle &&
+                           !(is_beside(proof, r.plane.point) && (core_ || is_as_high(proof, r.contact.height_m))));
     if (ran_past) return {kUnresolvedMargin * slope_m_, true, true};
     return own_slope(enough_m);
   }

@@ -87,7 +87,9 @@ class RivalSearch {
   bool continues_tracked_plane(std::uint32_t t) const;
   /// Whether a known contact is the one that a region, a side or a corner may have.
   bool holds_known(const PartOfTriangle& part, const KnownContact& known) const;
-  /// Whether a part leads to a known contact: a side or corner where the contact is on one of its triangles.
+  /// Whether a part leads to a known contact. Of what is beside the edge or corner that it is on nothing is taken for
+  /// granted, since a curved crease may hold another contact, and so may a face beside it; but of a finger that is not
+  /// round, whose proofs at corners are dear, the corners of the triangle that it is on are.
   bool is_slope_of(std::size_t i, const PartOfTriangle& part, double margin_m);
   /// `up_to`: rank below which contacts count.
   Look look_at(PartOfTriangle part, double enough_m, const RankBound& up_to, RivalResult& result);
