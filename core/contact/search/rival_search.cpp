@@ -474,7 +474,7 @@ Look RivalSearch::solve_from(const PartOfTriangle& part, const PatchExclusion& p
   if (!r.converged()) return {kUnresolvedMargin * slope_m_, true, true};
   if (is_followed(r.plane.point)) {
     // Beside a fold a solve may run past a contact, or where one is about to come up, to the tracked one.
-    // On a crease it may come up after that, too. Of a finger that is not round that is looked at where it is cheap.
+    // Solves of fingers that are not round are dear: beside creases they are not repeated.
     const bool ran_past = (!core_ && part.part != SearchPart::face) ||
                           ((!core_ || interior) && r.plane.triangle != part.triangle &&
                            !(is_beside(proof, r.plane.point) && (core_ || is_as_high(proof, r.contact.height_m))));
