@@ -106,7 +106,8 @@ TEST_CASE("a finger that is held where its first search broke off comes to the c
   for (const bool leaps : {false, true}) {
     CAPTURE(leaps);
     Held held;
-    hold(scene, places_in(scene->mesh(), rounds(200), 0.005, 0.020, random), leaps ? &above : nullptr, held);
+    hold(scene, places_in(scene->mesh(), std::max(40, rounds(200)), 0.005, 0.020, random), leaps ? &above : nullptr,
+         held);
     say(held);
     CHECK(held.broke_off * 10 > held.poses);
     CHECK(held.shallower == 0);
