@@ -15,7 +15,7 @@ namespace tangent {
 struct WatchedTriangle {
   std::uint32_t triangle : 28 = 0;
   std::uint32_t part : 3 = 0;         ///< SearchPart (prove/contact_hierarchy.h)
-  std::uint32_t holds_rival : 1 = 0;  ///< a contact, or what may have become one, that was not deep enough
+  std::uint32_t holds_rival : 1 = 0;  ///< a contact, or what may be one, that was not deep enough
   float margin_m = 0.0f;  ///< how far from Clearance::centre the finger may go before it must be looked at again
   bool operator==(const WatchedTriangle&) const = default;
 };

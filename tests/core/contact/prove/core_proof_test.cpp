@@ -43,17 +43,6 @@ ContactMesh sharp_ball(Random& random) {
   return *ContactMesh::build(ball, options);
 }
 
-/// A pose from which the finger comes to that one, and how far that is.
-FingerPose before(const Finger& finger, const FingerPose& there, double way_m, Random& random, double& gone_m) {
-  const double turns = random.in(0.0, 1.0);
-  FingerPose pose = there;
-  pose.position -= (1.0 - turns) * way_m * random.direction();
-  pose.orientation =
-      glm::normalize(glm::angleAxis(turns * way_m / finger.reach_m(), random.direction()) * there.orientation);
-  gone_m = glm::distance(pose.position, there.position) + turned_m(finger, pose.orientation, there.orientation);
-  return pose;
-}
-
 /// What proofs read, for one pose.
 struct Prover {
   PatchCache cache;

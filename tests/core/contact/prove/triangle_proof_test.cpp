@@ -143,15 +143,6 @@ TEST_CASE("a margin that is not said to be a rank's keeps contacts of every rank
   Random random(29);
   std::vector<ContactMesh> meshes = creased_meshes_and_rims();
   meshes.push_back(*ContactMesh::build(make_icosphere(0.030, 3)));
-  const auto before = [&](const Finger& finger, const FingerPose& there, double way_m, double& gone_m) {
-    const double turns = is_round(finger) ? 0.0 : random.in(0.0, 1.0);
-    FingerPose pose = there;
-    pose.position -= (1.0 - turns) * way_m * random.direction();
-    pose.orientation =
-        glm::normalize(glm::angleAxis(turns * way_m / finger.reach_m(), random.direction()) * there.orientation);
-    gone_m = glm::distance(pose.position, there.position) + turned_m(finger, pose.orientation, there.orientation);
-    return pose;
-  };
   for (const FingerShape shape : {FingerShape::sphere, FingerShape::ellipsoid, FingerShape::capsule}) {
     CAPTURE(static_cast<int>(shape));
     Finger finger = finger_of(shape);
@@ -187,7 +178,7 @@ TEST_CASE("a margin that is not said to be a rank's keeps contacts of every rank
         if (part.part != SearchPart::face && contact.height_m < 0.0) continue;  // a fan is touched from outside only
         const double rank = contact_rank(finger, contact) + random.in(-5e-3, 1e-3);
         double gone = 0.0;
-        const FingerPose here = before(finger, there, random.below(2) ? random.in(0.0, 2e-3) : 0.0, gone);
+        const FingerPose here = before(finger, there, random.below(2) ? random.in(0.0, 2e-3) : 0.0, random, gone);
         ContactContext context{cache, settings, finger, here, mesh.origin()};
         std::optional<FingerCore> core;
         if (!is_round(finger)) context.core = &core.emplace(finger, here);
