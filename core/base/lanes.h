@@ -1,11 +1,7 @@
 // A few numbers side by side, so that one instruction works on all: the same bits as one by one.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
-#ifdef __SSE__
-#include <xmmintrin.h>
-#endif
 
 namespace tangent {
 
@@ -14,13 +10,5 @@ using Four = float __attribute__((vector_size(16)));
 using FourMask = std::int32_t __attribute__((vector_size(16)));  ///< of a comparison: -1 where it holds, else 0
 
 inline Four max(const Four& a, const Four& b) { return a > b ? a : b; }
-
-inline Four sqrt(const Four& x) {
-#ifdef __SSE__
-  return _mm_sqrt_ps(x);
-#else
-  return {std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3])};
-#endif
-}
 
 }  // namespace tangent

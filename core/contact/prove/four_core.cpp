@@ -2,12 +2,24 @@
 
 #include "core/contact/prove/float_bounds.h"
 
+#include <cmath>
+#ifdef __SSE__
+#include <xmmintrin.h>  // here alone: lanes.h is installed, and this would be with it
+#endif
+
 namespace tangent {
 namespace {
 
 constexpr float kRatio = 1e-5f;  // far above what a dozen operations in float are rounded by
 
 Four dot(const std::array<Four, 3>& a, const std::array<Four, 3>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Four sqrt(const Four& x) {
+#ifdef __SSE__
+  return _mm_sqrt_ps(x);
+#else
+  return {std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3])};
+#endif
+}
 Four positive(const Four& x) { return max(x, Four{}); }
 Four least(const Four& a, const Four& b) { return a < b ? a : b; }
 Four absolute(const Four& x) { return max(x, -x); }
