@@ -21,6 +21,7 @@ struct ContactContext {
   Vec3 moved{0.0};                      ///< the way of its centre
   int most_crossings = kMostCrossings;  ///< triangles that a step may cross; of the kept contact, kMostTrackedCrossings
   double late_m = 0.0;                  ///< way before that, in which a deeper place may have come up unnoticed
+  double lost_m = 0.0;                  ///< half of the depth by which one was lost, and the way since
   bool in_real_time = false;         ///< a first search, too, takes a tick's time at most, and goes on in the next ones
   const FingerCore* core = nullptr;  ///< for proofs, of a finger that is not round; set by searches
   bool brief = false;                ///< its proofs look at a face once, and not at pieces of it

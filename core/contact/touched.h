@@ -88,6 +88,7 @@ struct EnteredPlaces {
   std::optional<TouchedContact> last;                          ///< what was tracked: nor what is its far side
   /// It was so deep in something that it can't have left it all since: a place that it doesn't touch is no way out.
   bool pressed = false;
+  bool inside = false;  ///< pressed into a closed body, and not far from there
 
   bool hold(const TrackedPlane& plane, const PlaneContact& contact) const {
     return !(contact.penetration_m > deepest_m) && !(contact.height_m < -behind_m) &&

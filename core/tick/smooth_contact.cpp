@@ -49,6 +49,18 @@ bool is_starting(const ContactContext& context, const TickState& state) {
 /// one does not push from there.
 double most_behind_m(const ContactContext& context) { return context.hystereses_m(kLeapOfFinger); }
 
+/// Whether the finger can't have left a closed body: it is deep in the last converged plane, and near its place.
+bool is_inside(const ContactContext& context, const TickState& state) {
+  if (context.settings.method != Method::robust || !context.cache.mesh().is_closed()) return false;
+  if (!state.has_converged || state.unentered) return false;
+  FingerStep step = step_of(context);
+  step.late_m = 0.0;  // the plane is asked at the present pose
+  const ConvergedPlane& last = state.last_converged;
+  const PlaneContact now = contact_on_plane(context.finger, context.pose, last.point, last.normal);
+  const double near = context.hystereses_m(kLeapOfFinger) + context.finger.unroundness_m();
+  return is_pressed(step, now.penetration_m) && now.error_m < near;
+}
+
 /// Whether a place is unentered at which the contact leapt or started anew.
 bool is_unentered(ContactContext& context, const TickState& state, const IterationResult& found, int& evaluations) {
   if (is_starting(context, state)) return !found_before(state) && found.contact.height_m < -most_behind_m(context);
@@ -150,7 +162,8 @@ EnteredPlaces entered_places(ContactContext& context, const TickState& state, in
   }
   const double before = depth_before(context, state);
   const double deepest = std::max(before, deepest_m(context, state.touched, evaluations));
-  entered.pressed = is_pressed(step, deepest);
+  entered.inside = is_inside(context, state);
+  entered.pressed = entered.inside || is_pressed(step, deepest);
   entered.deepest_m = deepest_entered_m(step, deepest, found_before(state) && !(deepest > 0.0));
   if (!(before > 0.0) || was_put_elsewhere(step)) return entered;
   TouchedContact& last = entered.last.emplace();
@@ -168,8 +181,10 @@ void start_anew(ContactContext& context, const SearchStructures& search, bool be
   const SeedResult seeded =
       seed_contact(context, search, state.plane, in_vain, in_parts ? &state.clearance : nullptr, entered);
   decided.searching = seeded.searching;
-  if (seeded.searching && seeded.best.converged() && !entered.go_on_at(seeded.best.plane, seeded.best.contact)) {
-    // Where the search is not through, the place that the finger came into may be still to come.
+  const bool goes_on = entered.go_on_at(seeded.best.plane, seeded.best.contact);
+  if ((seeded.searching || entered.inside) && seeded.best.converged() && !goes_on) {
+    // Where the search is not through, the place that the finger came into may be still to come; inside a body it may
+    // come up again.
     decided.evaluations += seeded.evaluations;
     decided.contact.stop = StopReason::facing;
     decided.event = TickEvent::reseed;
@@ -234,17 +249,23 @@ void go_on_starting(ContactContext& context, const SearchStructures& search, boo
 /// gone back.
 bool judge_followed(ContactContext& context, const SearchStructures& search, Followed followed, TickState& state,
                     DecidedContact& decided, TouchedContacts* touched) {
-  if (!(decided.contact.contact.penetration_m > 0.0)) {
-    state.unentered = 0;  // left: from now on it counts
-    return false;
-  }
+  const double depth = decided.contact.contact.penetration_m;
+  const bool inside = is_inside(context, state), free = !(depth > 0.0);
+  if (free) state.unentered = 0;  // left: from now on it counts
   const bool leapt = followed == Followed::branched;
-  if (state.unentered || (!leapt && found_before(state)) ||
-      !is_unentered(context, state, decided.contact, decided.evaluations))
-    return false;
-  const bool went_back = leapt && go_back_to_entered(context, search, state, decided, touched);
-  state.unentered = !went_back;
-  return went_back;
+  if (state.unentered || (!leapt && found_before(state))) return false;
+  const bool counts = free ? !inside || came_out(step_of(context), depth)
+                           : !is_unentered(context, state, decided.contact, decided.evaluations);
+  if (counts) return false;
+  if ((leapt || inside) && go_back_to_entered(context, search, state, decided, touched)) return true;
+  if (inside) {
+    // What it is in may come up again.
+    decided.contact.stop = StopReason::facing;
+    decided.event = TickEvent::reseed;
+    return true;
+  }
+  state.unentered = 1;
+  return false;
 }
 
 /// Where a first search stands now. `begins`: it began in this tick.
@@ -286,11 +307,24 @@ bool follow_or_start(ContactContext& context, const SearchStructures& search, bo
   return follows;
 }
 
+/// On the way to the next tick. `lost_depth_m`: by how much what is gone on with is less deep than what was lost.
+void remember_way(const ContactContext& context, double lost_depth_m, bool searching, TickState& state) {
+  const bool elsewhere = was_put_elsewhere(step_of(context));
+  state.late_m = searching && !elsewhere ? static_cast<float>(context.late_m + context.moved_m) : 0.0f;
+  const double most = context.hystereses_m(kMostLateEntry);
+  double lost = context.lost_m > 0.0 ? context.lost_m + context.moved_m : 0.0;
+  if (lost > most && !searching) lost = 0.0;
+  // Places count as deeper by twice the way.
+  if (lost_depth_m > 0.0) lost = std::min(std::max(lost, 0.5 * lost_depth_m), most);
+  state.lost_m = elsewhere ? 0.0f : static_cast<float>(lost);
+}
+
 }  // namespace
 
 void find_smooth_contact(ContactContext& context, const SearchStructures& search, bool sample_is_kept, TickState& state,
                          DecidedContact& decided, TouchedContacts* touched) {
   context.late_m = double{state.late_m};
+  context.lost_m = double{state.lost_m};
   decided.searching = decided.places_changed = false;
   if (!touched && state.touched.count > 0) {  // they were followed until now, and are looked for no more
     state.touched.count = 0;
@@ -308,10 +342,7 @@ void find_smooth_contact(ContactContext& context, const SearchStructures& search
   } else if (watches && follows) {
     watch_others(context, search, state, decided);
   }
-  double late = was_put_elsewhere(step_of(context)) ? 0.0 : context.late_m + context.moved_m;
-  // What the search comes to may be as deep as what was lost before it: places count as deeper by twice the way.
-  if (!follows) late += 0.5 * std::max(0.0, before - decided.contact.contact.penetration_m);
-  state.late_m = decided.searching ? static_cast<float>(late) : 0.0f;
+  remember_way(context, follows ? 0.0 : before - decided.contact.contact.penetration_m, decided.searching, state);
 }
 
 }  // namespace tangent

@@ -65,9 +65,10 @@ struct TickState {
   std::uint8_t has_proxy = 0;      ///< proxy is set
   std::uint8_t unentered = 0;      ///< the tracked place was found from behind: it does not push until it is left
   Start start = Start::found;
-  /// The finger's way while a search for deeper places was not done, so late one may be found, and half of the depth of
-  /// what was lost meanwhile.
-  float late_m = 0.0f;
+  float late_m = 0.0f;  ///< the finger's way while a search for deeper places was not done, so late one may be found
+  /// Half of how much deeper a contact that was lost was than what is gone on with, and the way since: it may come up
+  /// again. 0: none was, or too far from here.
+  float lost_m = 0.0f;
   Clearance clearance;
   Vec3 proxy{0.0};        ///< of the two-pass method, local, m
   TouchedPlaces touched;  ///< beside `plane`, where the force comes from all of them

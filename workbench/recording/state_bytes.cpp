@@ -52,7 +52,7 @@ template <class Stream>
 void describe(Stream& stream, TickState& s) {
   describe(stream, s.plane);
   stream.all(s.last_converged.point, s.last_converged.normal, s.last_converged_s, s.last_position, s.last_orientation,
-             s.last_t_s, s.has_previous, s.has_converged, s.has_proxy, s.unentered, s.start, s.late_m);
+             s.last_t_s, s.has_previous, s.has_converged, s.has_proxy, s.unentered, s.start, s.late_m, s.lost_m);
   describe(stream, s.clearance);
   stream.all(s.proxy, s.touched.count);
   s.touched.count = std::min<std::uint32_t>(s.touched.count, kMostTouched);

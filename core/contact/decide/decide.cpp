@@ -40,11 +40,14 @@ void decide_followed(Followed followed, bool first, DecidedContact& decided) {
 
 bool was_put_elsewhere(const FingerStep& step) { return step.moved_m > kLeapOfFinger * step.switch_hysteresis_m; }
 
-/// No depth changes by more than the finger moves.
+/// How much deeper a place can have become since the last tick and on the way before it: no depth changes by more than
+/// the finger moves.
+static double explained_m(const FingerStep& step, double way_before_m) {
+  const double before = std::min(way_before_m, kMostLateEntry * step.switch_hysteresis_m);
+  return 2.0 * (step.moved_m + before) + (1.0 + kEnteredDepth) * step.switch_hysteresis_m;
+}
 static double entered_beside_m(const FingerStep& step, double tracked_depth_m) {
-  const double late = std::min(step.late_m, kMostLateEntry * step.switch_hysteresis_m);
-  const double explained = 2.0 * (step.moved_m + late) + (1.0 + kEnteredDepth) * step.switch_hysteresis_m;
-  return std::max(0.0, tracked_depth_m) + explained;
+  return std::max(0.0, tracked_depth_m) + explained_m(step, step.late_m + step.lost_m);
 }
 
 bool was_entered(const FingerStep& step, double depth_m, double tracked_depth_m) {
@@ -52,7 +55,11 @@ bool was_entered(const FingerStep& step, double depth_m, double tracked_depth_m)
 }
 
 bool is_pressed(const FingerStep& step, double before_m) {
-  return !was_put_elsewhere(step) && before_m > entered_beside_m(step, 0.0);
+  return !was_put_elsewhere(step) && before_m > explained_m(step, step.late_m);
+}
+
+bool came_out(const FingerStep& step, double depth_m) {
+  return -depth_m <= step.moved_m + step.late_m + step.switch_hysteresis_m;
 }
 
 double deepest_entered_m(const FingerStep& step, double before_m, bool was_free) {
@@ -60,9 +67,12 @@ double deepest_entered_m(const FingerStep& step, double before_m, bool was_free)
   return was_free ? entered_beside_m(step, 0.0) : std::max(0.0, before_m) + kLeapOfFinger * step.switch_hysteresis_m;
 }
 
-/// Behind a sheet its rim, where it is not touched, ranks before the place that pushes there.
+/// Behind a sheet its rim, where it is not touched, ranks before the place that pushes there; so does, inside a closed
+/// body, the surface of another one that it reaches into.
 static bool is_no_way_out(const ContactContext& context, const PlaneContact& place, const PlaneContact& tracked) {
-  return is_free(context.finger, place) && is_behind(context.finger, tracked);
+  if (is_free(context.finger, place) && is_behind(context.finger, tracked)) return true;
+  const bool inside = context.cache.mesh().is_closed() && tracked.height_m < 0.0 && tracked.penetration_m > 0.0;
+  return inside && !(place.penetration_m > 0.0) && !came_out(step_of(context), place.penetration_m);
 }
 
 bool decide_rival(const ContactContext& context, const RivalResult& rival, double tracked_depth_m,

@@ -48,9 +48,10 @@ struct FingerStep {
   double moved_m = 0.0;
   double switch_hysteresis_m = 0.0;
   double late_m = 0.0;  ///< the way before that in which nobody looked
+  double lost_m = 0.0;  ///< of what was lost and may come up again (ContactContext)
 };
 inline FingerStep step_of(const ContactContext& context) {
-  return {context.moved_m, context.settings.switch_hysteresis_m, context.late_m};
+  return {context.moved_m, context.settings.switch_hysteresis_m, context.late_m, context.lost_m};
 }
 
 /// Whether the finger has been put elsewhere, so far it has come: what it is in then counts as entered.
@@ -72,6 +73,9 @@ inline bool is_unentered(const FingerStep& step, double depth_m, double before_m
 
 /// Whether a finger that was so deep in something can't have left it since the last tick.
 bool is_pressed(const FingerStep& step, double before_m);
+
+/// Whether the finger can have come out, since the last tick, of a place that it doesn't touch now.
+bool came_out(const FingerStep& step, double depth_m);
 
 /// A deeper place takes over, if one was found that was entered. True where it did.
 bool decide_rival(const ContactContext& context, const RivalResult& rival, double tracked_depth_m,

@@ -280,6 +280,19 @@ TEST_CASE("links and creases of messy meshes are those that a walk from triangle
   CHECK(all == 15529795257180874914u);
 }
 
+TEST_CASE("a mesh is closed if every side of its triangles has a neighbour, slivers without area aside") {
+  PolygonMesh ball = make_icosphere(0.040, 1);
+  CHECK(ContactMesh::build(ball)->is_closed());
+  ball.add_face({0, 1, 1});
+  CHECK(ContactMesh::build(ball)->is_closed());
+  ball = make_icosphere(0.040, 1);
+  PolygonMesh open = ball;
+  open.face_offsets.pop_back();
+  open.corner_position.resize(open.face_offsets.back());
+  if (!open.corner_normal.empty()) open.corner_normal.resize(open.face_offsets.back());
+  CHECK_FALSE(ContactMesh::build(open)->is_closed());
+}
+
 TEST_CASE("a mesh knows its inner edges from its outer ones, and whether it has any") {
   PolygonMesh mesh;  // two walls that meet at right angles, seen from inside the angle
   mesh.positions = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 1}, {0, 1, 1}};

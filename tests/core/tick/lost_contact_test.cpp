@@ -125,6 +125,87 @@ TEST_CASE("a finger that is pushed through a sheet is not let go for the rim tha
   CHECK(let_go == 0);
 }
 
+namespace {
+
+/// Where a hand that holds its force is without any, though a search from nothing has a contact there.
+struct WithoutForce {
+  int ticks = 0, without = 0, longest = 0;
+};
+
+/// On great circles round the stone, about a millimetre deep as the force tells it.
+void go_round(const ScenePtr& scene, const Preset& preset, int ticks, const Vec3& start, Random random,
+              WithoutForce& counts) {
+  constexpr double kFeltShare = 0.1, kDeepEnough = 3e-4;
+  Stepper stepper(scene), fresh(scene);
+  TickState state;
+  Vec3 direction = start, axis = start;
+  double distance = 0.0414 + preset.finger.reach_m(), felt_m = 0.0;
+  int lasts = 0;
+  for (int i = 0; i < ticks; ++i) {
+    if (i % 200 == 0) axis = random.direction();
+    direction = unit(direction + 0.003 * glm::cross(axis, direction));
+    distance += std::clamp(0.2 * (felt_m - 1e-3), -1e-4, 1e-4);
+    const TickInput input = at_position(1e-3 * i, distance * direction);
+    const TickOutput out = stepper.step(preset, input, state);
+    felt_m = glm::length(out.force_n) / preset.force.stiffness_n_per_m;
+    TickState nothing;
+    const TickOutput there = fresh.step(preset, input, nothing);
+    const bool without =
+        is_converged(there.status) && there.penetration_m > kDeepEnough && felt_m < kFeltShare * there.penetration_m;
+    lasts = without ? lasts + 1 : 0;
+    counts.longest = std::max(counts.longest, lasts);
+    counts.without += without;
+    ++counts.ticks;
+  }
+}
+
+/// The same stones and ways for every finger.
+WithoutForce go_round_stones(Preset preset, int stones, int ticks) {
+  Random random{96};
+  WithoutForce counts;
+  for (int body = 0; body < stones; ++body) {
+    PolygonMesh stone = make_icosphere(0.036, 1 + body % 3);
+    for (Vec3& p : stone.positions) p *= random.in(0.85, 1.15);
+    stone.normals.clear();
+    stone.corner_normal.clear();
+    ContactMeshOptions options;
+    options.crease_rad = random.in(20.0, 60.0) * kDegree;
+    if (preset.finger.shape == FingerShape::sphere) preset.finger.radius_m = body % 3 ? 0.020 : 0.005;
+    const Vec3 start = random.direction();
+    random.direction();
+    go_round(scene_of(stone, options), preset, rounds(ticks), start, Random{1000u + static_cast<std::uint64_t>(body)},
+             counts);
+  }
+  return counts;
+}
+
+}  // namespace
+
+TEST_CASE("round rough stones a hand is not without force where it was pressed into something, if contacts are lost") {
+  Finger capsule = finger_of(FingerShape::capsule);
+  capsule.radius_m = 0.014;
+  capsule.half_length_m = 0.020;
+  for (const ForceContacts contacts : {ForceContacts::all, ForceContacts::deepest}) {
+    Preset preset = sphere_preset(0.020, Method::robust);
+    preset.force.contacts = contacts;
+    const auto without = [&](const Finger& finger, int stones, int ticks) {
+      preset.finger = finger;
+      const WithoutForce counts = go_round_stones(preset, stones, ticks);
+      MESSAGE("finger " << static_cast<int>(finger.shape) << ", contacts " << static_cast<int>(contacts) << ": "
+                        << counts.without << " of " << counts.ticks << " ticks without force, " << counts.longest
+                        << " on end");
+      return counts;
+    };
+    // Of points and deepest places alone the contact went over to the outside of a saddle's vertex, or came up again
+    // deeper a tick after it was lost, and did not count any more: the finger fell through the stone.
+    CHECK(without(finger_of(FingerShape::sphere), 40, 2000).longest <= 3);
+    CHECK(without(finger_of(FingerShape::point), 40, 1000).longest <= 3);
+    const WithoutForce of_capsule = without(capsule, 40, 1000);
+    CHECK(of_capsule.without <= std::max(3, of_capsule.ticks / 500));
+    CHECK(of_capsule.longest <= 50);
+  }
+}
+
 TEST_CASE("a place that was entered holds a lost contact, one that is too deep or the far side of it does not") {
   EnteredPlaces any;
   TrackedPlane up, down;
@@ -208,4 +289,18 @@ TEST_CASE("where a deep contact ends the place that it goes on to pushes, though
     CHECK(passing.behind <= 2);  // 42, by 3.8 mm, when it counted as never entered
     CHECK(passing.most_m < 1.2e-3);
   }
+}
+
+TEST_CASE("what was lost a moment ago may come up again as deep, but the finger has come out of nothing by that") {
+  FingerStep step{1e-4, 2e-5, 0.0, 0.0};
+  CHECK_FALSE(was_entered(step, 1.2e-3, 0.4e-3));
+  step.lost_m = 0.25e-3;  // half of what it was deeper
+  CHECK(was_entered(step, 1.2e-3, 0.4e-3));
+  CHECK_FALSE(was_entered(step, 1.3e-3, 0.4e-3));
+  CHECK(is_pressed(step, 0.4e-3));
+  CHECK_FALSE(came_out(step, -0.2e-3));
+  CHECK(came_out(step, -0.1e-3));
+  step.late_m = 0.2e-3;  // nobody looked on that way
+  CHECK_FALSE(is_pressed(step, 0.4e-3));
+  CHECK(came_out(step, -0.2e-3));
 }
