@@ -119,6 +119,11 @@ inline constexpr double kEnteredDepth = 5.0;
 /// rough sheet pushes after a long search; smaller: a place that was entered in front of a fast finger does not.
 inline constexpr double kMostLateEntry = 50.0;
 
+/// Seconds for which a finger that was pressed into a closed body, and whose contact was lost, counts as still inside
+/// however the surface looks from there: the force has faded by then. Longer: one that has left without being noticed
+/// is searched for longer; shorter: one that is inside sinks.
+inline constexpr double kInsideFor = 0.1;
+
 /// A finger that goes further in one tick, 5 mm, has been put elsewhere, and what it is in counts as entered.
 inline constexpr double kLeapOfFinger = 250.0;
 

@@ -49,10 +49,12 @@ bool is_starting(const ContactContext& context, const TickState& state) {
 /// one does not push from there.
 double most_behind_m(const ContactContext& context) { return context.hystereses_m(kLeapOfFinger); }
 
-/// Whether the finger can't have left a closed body: it is deep in the last converged plane, and near its place.
+/// Whether the finger is taken to be still inside a closed body: it is deep in the plane that converged last, a moment
+/// ago, and near its place.
 bool is_inside(const ContactContext& context, const TickState& state) {
   if (context.settings.method != Method::robust || !context.cache.mesh().is_closed()) return false;
-  if (!state.has_converged || state.unentered) return false;
+  const bool lately = state.has_converged && state.last_t_s - state.last_converged_s <= kInsideFor;
+  if (!lately || state.unentered) return false;
   FingerStep step = step_of(context);
   step.late_m = 0.0;  // the plane is asked at the present pose
   const ConvergedPlane& last = state.last_converged;
@@ -181,7 +183,9 @@ void start_anew(ContactContext& context, const SearchStructures& search, bool be
   const SeedResult seeded =
       seed_contact(context, search, state.plane, in_vain, in_parts ? &state.clearance : nullptr, entered);
   decided.searching = seeded.searching;
-  const bool goes_on = entered.go_on_at(seeded.best.plane, seeded.best.contact);
+  const double depth = seeded.best.contact.penetration_m;
+  const bool left = !seeded.searching && !(depth > 0.0) && came_out(step_of(context), depth);
+  const bool goes_on = left || entered.go_on_at(seeded.best.plane, seeded.best.contact);
   if ((seeded.searching || entered.inside) && seeded.best.converged() && !goes_on) {
     // Where the search is not through, the place that the finger came into may be still to come; inside a body it may
     // come up again.
@@ -342,7 +346,8 @@ void find_smooth_contact(ContactContext& context, const SearchStructures& search
   } else if (watches && follows) {
     watch_others(context, search, state, decided);
   }
-  remember_way(context, follows ? 0.0 : before - decided.contact.contact.penetration_m, decided.searching, state);
+  const double lost_depth = follows ? 0.0 : before - std::max(0.0, decided.contact.contact.penetration_m);
+  remember_way(context, lost_depth, decided.searching, state);
 }
 
 }  // namespace tangent

@@ -67,12 +67,9 @@ double deepest_entered_m(const FingerStep& step, double before_m, bool was_free)
   return was_free ? entered_beside_m(step, 0.0) : std::max(0.0, before_m) + kLeapOfFinger * step.switch_hysteresis_m;
 }
 
-/// Behind a sheet its rim, where it is not touched, ranks before the place that pushes there; so does, inside a closed
-/// body, the surface of another one that it reaches into.
+/// Behind a sheet its rim, where it is not touched, ranks before the place that pushes there.
 static bool is_no_way_out(const ContactContext& context, const PlaneContact& place, const PlaneContact& tracked) {
-  if (is_free(context.finger, place) && is_behind(context.finger, tracked)) return true;
-  const bool inside = context.cache.mesh().is_closed() && tracked.height_m < 0.0 && tracked.penetration_m > 0.0;
-  return inside && !(place.penetration_m > 0.0) && !came_out(step_of(context), place.penetration_m);
+  return is_free(context.finger, place) && is_behind(context.finger, tracked);
 }
 
 bool decide_rival(const ContactContext& context, const RivalResult& rival, double tracked_depth_m,

@@ -98,6 +98,51 @@ TEST_CASE("through a fin and a plate the finger is pushed back to where it came 
   }
 }
 
+TEST_CASE("through a plate while no tick looks the finger is let go when one does again") {
+  constexpr double thick = 1e-3;
+  const ScenePtr scene = scene_of(box({0.5 * thick, 0.03, 0.03}));
+  for (const double radius : {0.0, 5e-4, 0.005, 0.020})
+    for (const ForceContacts contacts : {ForceContacts::all, ForceContacts::deepest}) {
+      Preset preset = sphere_preset(radius, Method::robust);
+      preset.force.contacts = contacts;
+      Stepper stepper(scene);
+      TickState state;
+      int past = 0, pushed_past = 0;
+      for (double x = -radius - 1e-3, t = 0.0; x < radius + 6e-3; x += 5e-5) {
+        TickInput input = at_position(t += 1e-3, {x, 0.001, 0.002});
+        input.unready = x > radius + 3e-4 && x < radius + 1.5e-3;
+        const TickOutput out = stepper.step(preset, input, state);
+        const bool left = x >= radius + 1.5e-3;
+        past += left;
+        pushed_past += left && out.decided_force_n != Vec3(0.0);
+      }
+      CAPTURE(radius);
+      CAPTURE(static_cast<int>(contacts));
+      CHECK(past > 50);
+      CHECK(pushed_past == 0);
+    }
+}
+
+TEST_CASE("a point that comes in under a sheet's rim from free air is not pushed from behind") {
+  const ScenePtr scene = scene_of(height_field(0.020, 8, [](double, double) { return 0.0; }));
+  for (const double below : {1e-3, 1.5e-3, 1.9e-3})
+    for (const double speed : {0.01, 0.1}) {
+      Stepper stepper(scene);
+      TickState state;
+      int under = 0, pushed = 0;
+      for (double y = 0.02005, t = 0.0; y > 0.016; y -= 1e-3 * speed) {
+        const TickOutput out =
+            stepper.step(sphere_preset(0.0, Method::robust), at_position(t += 1e-3, {0.003, y, -below}), state);
+        ++under;
+        pushed += out.decided_force_n != Vec3(0.0);
+      }
+      CAPTURE(below);
+      CAPTURE(speed);
+      CHECK(under >= 40);
+      CHECK(pushed == 0);
+    }
+}
+
 TEST_CASE("a finger that was put elsewhere is at the deepest place there, as a first tick would be") {
   Random random(9);
   int leaps = 0, shallower = 0, touching = 0;

@@ -291,6 +291,45 @@ TEST_CASE("where a deep contact ends the place that it goes on to pushes, though
   }
 }
 
+TEST_CASE("a finger that has crossed a wedge's sharp edge and stops is free") {
+  constexpr double kHalfAngle = 22.5 * kDegree, kLong = 0.04, kWide = 0.02, kThick = 2e-4;
+  const double across = kLong * std::tan(kHalfAngle);
+  PolygonMesh wedge;
+  for (const double y : {-kWide, kWide})
+    for (const Vec3& corner : {Vec3(0.0, y, 0.0), Vec3(-kLong, y, across), Vec3(-kLong, y, -across)})
+      wedge.positions.push_back(corner);
+  for (const auto& f : {std::array<std::uint32_t, 3>{0, 1, 2},
+                        {3, 5, 4},
+                        {0, 3, 4},
+                        {0, 4, 1},
+                        {1, 4, 5},
+                        {1, 5, 2},
+                        {2, 5, 3},
+                        {2, 3, 0}})
+    wedge.add_face({f[0], f[1], f[2]});
+  ContactMeshOptions options;
+  options.crease_rad = 5.0 * kDegree;
+  const ScenePtr scene = scene_of(wedge, options);
+  CHECK(scene->mesh().is_closed());
+  CHECK(scene->mesh().inside_out_triangles() == 0);
+  const double x = -0.5 * kThick / std::tan(kHalfAngle);
+  for (const double radius : {0.0, 5e-4, 5e-3}) {
+    Preset preset = sphere_preset(radius, Method::robust);
+    Stepper stepper(scene);
+    TickState state;
+    int touched = 0, not_free = 0;
+    for (int i = 0; i < 500; ++i) {
+      const double z = std::max(radius + 9e-4 - 3e-4 * i, -2.0 * radius - 1e-3);  // and there it stays
+      const TickOutput out = stepper.step(preset, at_position(1e-3 * i, {x, 0.001, z}), state);
+      touched += out.penetration_m > 0.0;
+      if (i >= 200) not_free += out.status != TickStatus::free || out.force_n != Vec3(0.0);
+    }
+    CAPTURE(radius);
+    CHECK(touched > 0);
+    CHECK(not_free == 0);
+  }
+}
+
 TEST_CASE("what was lost a moment ago may come up again as deep, but the finger has come out of nothing by that") {
   FingerStep step{1e-4, 2e-5, 0.0, 0.0};
   CHECK_FALSE(was_entered(step, 1.2e-3, 0.4e-3));
