@@ -70,15 +70,16 @@ struct TouchedContacts {
 /// itself: of two sides of a wall, or of a sharp edge seen from inside, the finger need not leave both.
 inline bool pushes_with_others(const PlaneContact& contact) { return contact.height_m >= 0.0; }
 
+/// Whether two places face apart as both sides of a plate do, or of a wedge of up to 60 degrees.
+inline bool faces_away(const TrackedPlane& a, const TrackedPlane& b) { return glm::dot(a.normal, b.normal) < -0.5; }
+
 /// Whether a place is the far side of what the finger is in, a plate's or a fin's other face: it faces away from the
 /// tracked place, and the finger's centre has come behind either of them. What the finger has left on that side is
 /// none.
 inline bool is_far_side(const TouchedContact& place, const TouchedContact& tracked) {
-  constexpr double kFacesAway = -0.5;  // cosine: a wedge of up to 60 degrees has a far side
   const bool behind =
       place.contact.height_m < 0.0 || (tracked.contact.height_m < 0.0 && place.contact.penetration_m > 0.0);
-  return behind && tracked.contact.penetration_m > 0.0 &&
-         glm::dot(place.plane.normal, tracked.plane.normal) < kFacesAway;
+  return behind && tracked.contact.penetration_m > 0.0 && faces_away(place.plane, tracked.plane);
 }
 
 /// Which places a finger whose contact was lost can have come into from outside.

@@ -24,8 +24,9 @@ Takeover takeover_from(const ContactContext& context, const PlaneContact& follow
                        double hystereses) {
   const double bound = takeover_bound_m(context.settings, contact_rank(context.finger, followed), hystereses);
   if (pushes_alone && is_behind(context.finger, followed)) {
-    const double touching = context.finger.reach_m();
-    return {std::min(bound, touching), touching < bound};
+    const bool closed = context.cache.mesh().is_closed();
+    const double way_out = closed ? context.soon_touched_rank() : context.finger.reach_m();
+    return {std::min(bound, way_out), way_out < bound};
   }
   if (!is_free(context.finger, followed)) return {bound, false};
   const double soon = context.soon_touched_rank();
@@ -67,9 +68,11 @@ double deepest_entered_m(const FingerStep& step, double before_m, bool was_free)
   return was_free ? entered_beside_m(step, 0.0) : std::max(0.0, before_m) + kLeapOfFinger * step.switch_hysteresis_m;
 }
 
-/// Behind a sheet its rim, where it is not touched, ranks before the place that pushes there.
-static bool is_no_way_out(const ContactContext& context, const PlaneContact& place, const PlaneContact& tracked) {
-  return is_free(context.finger, place) && is_behind(context.finger, tracked);
+/// Behind a sheet its rim, where it is not touched, ranks before the place that pushes there. Out of a closed body the
+/// finger has come at its far side.
+static bool is_no_way_out(const ContactContext& context, const TouchedContact& place, const TouchedContact& tracked) {
+  if (!is_free(context.finger, place.contact) || !is_behind(context.finger, tracked.contact)) return false;
+  return !context.cache.mesh().is_closed() || !faces_away(place.plane, tracked.plane);
 }
 
 bool decide_rival(const ContactContext& context, const RivalResult& rival, double tracked_depth_m,
@@ -79,7 +82,7 @@ bool decide_rival(const ContactContext& context, const RivalResult& rival, doubl
   const FingerStep step = step_of(context);
   if (!was_entered(step, rival.best.contact.penetration_m, tracked_depth_m)) return false;
   const TouchedContact tracked{decided.contact.plane, decided.contact.contact};
-  if (tracked_depth_m > 0.0 && is_no_way_out(context, rival.best.contact, tracked.contact)) return false;
+  if (tracked_depth_m > 0.0 && is_no_way_out(context, {rival.best.plane, rival.best.contact}, tracked)) return false;
   if (tracked_depth_m > 0.0 && !was_put_elsewhere(step) && is_far_side({rival.best.plane, rival.best.contact}, tracked))
     return false;
   adopt(rival.best, kept, decided);
@@ -93,7 +96,8 @@ bool decide_touched(ContactContext& context, double bound_m, TouchedContacts& to
   for (TouchedContact& c : std::span(touched.contacts).first(touched.count))
     if (!deepest || c.contact.penetration_m > deepest->contact.penetration_m) deepest = &c;
   if (!deepest || !(contact_rank(context.finger, deepest->contact) < bound_m)) return false;
-  if (decided.converged() && is_no_way_out(context, deepest->contact, decided.contact.contact)) return false;
+  const TouchedContact tracked{decided.contact.plane, decided.contact.contact};
+  if (decided.converged() && is_no_way_out(context, *deepest, tracked)) return false;
   IterationResult contact;
   ContactContext quiet = context;
   quiet.trace = nullptr;

@@ -36,7 +36,7 @@ struct Takeover {
 };
 /// Those that are deeper by so many hystereses. Of a finger that is not round and touches nothing, only those that it
 /// may soon touch: where the others are nobody feels. Behind a place that `pushes_alone`, only those that it touches: a
-/// rim beside it that is free is no way out.
+/// rim beside it that is free is no way out. Of a closed body those, too, that it may soon touch: it may have come out.
 Takeover takeover_from(const ContactContext& context, const PlaneContact& followed, bool pushes_alone,
                        double hystereses = 1.0);
 

@@ -1,5 +1,6 @@
 // Nothing pushes that the finger did not enter from outside: sheets from behind, the far side of plates and fins. And a
 // finger that was put elsewhere is in what is there.
+#include "tests/core/fingers.h"
 #include "tests/core/random_bodies.h"
 
 using namespace tangent;
@@ -96,6 +97,35 @@ TEST_CASE("through a fin and a plate the finger is pushed back to where it came 
         CHECK(pushed_past == 0);
       }
   }
+}
+
+TEST_CASE("fingers that are not round are let go, too, when they have come through a plate") {
+  Random random(5);
+  int past = 0, pushed_past = 0, pushed_back = 0;
+  for (const double thick : {3e-4, 1e-3}) {
+    const ScenePtr scene = scene_of(box({0.5 * thick, 0.05, 0.05}));
+    for (int i = 0; i < rounds(40); ++i) {
+      Preset preset = sphere_preset(0.0, Method::robust);
+      preset.finger = finger_of(i % 2 ? FingerShape::ellipsoid : FingerShape::capsule);
+      preset.force.contacts = i % 4 < 2 ? ForceContacts::all : ForceContacts::deepest;
+      FingerPose pose{Vec3(0.0), random.orientation()};
+      const double half = std::abs(support_point(preset.finger, pose, Vec3(1.0, 0.0, 0.0)).x);
+      Stepper stepper(scene);
+      TickState state;
+      double t = 0.0;
+      for (double x = -half - 1e-3; x < half + 4e-3; x += 5e-5) {
+        pose.position = Vec3(x, 0.001, 0.002);
+        const TickOutput out = stepper.step(preset, {t += 1e-3, pose}, state);
+        const bool left = x > half + 0.5 * thick + 1e-4;
+        pushed_back += out.decided_force_n.x < 0.0;
+        past += left;
+        pushed_past += left && out.decided_force_n != Vec3(0.0);
+      }
+    }
+  }
+  MESSAGE(pushed_past << " of " << past << " ticks past the plate push");
+  CHECK(pushed_back > past);
+  CHECK(pushed_past <= past / 100);
 }
 
 TEST_CASE("through a plate while no tick looks the finger is let go when one does again") {
