@@ -79,10 +79,10 @@ double touching_bound_m(const ContactContext& context, const TouchedContacts& to
   return is_round(finger) ? round_radius_m(finger) : finger.reach_m();
 }
 
-/// Looks for places that are touched and not followed yet. True where a deeper one that does not push with others takes
-/// over.
+/// Looks for places that are touched and not followed yet. True where a deeper one that does not push with others, of a
+/// rank below `deeper_m`, takes over.
 bool look_for_touched(ContactContext& context, const SearchStructures& search, const Takeover& takeover,
-                      TickState& state, DecidedContact& decided, TouchedContacts& touched) {
+                      double deeper_m, TickState& state, DecidedContact& decided, TouchedContacts& touched) {
   const double bound = std::max(takeover.bound_m, touching_bound_m(context, touched));
   const double gone = gone_m(state.clearance, context.finger, context.pose);
   if (!deeper_possible(state.clearance, context.pose, gone, bound)) return false;
@@ -116,7 +116,7 @@ bool look_for_touched(ContactContext& context, const SearchStructures& search, c
   if (refused) forget_surroundings(state.clearance);
   if (touched.count > followed || touched.full()) decided.places_changed = true;
   rival.deeper = rival.deeper && !pushes_with_others(rival.best.contact) &&
-                 contact_rank(context.finger, rival.best.contact) < takeover.bound_m;
+                 contact_rank(context.finger, rival.best.contact) < deeper_m;
   if (!decide_rival(context, rival, depth, state.plane, decided)) return false;
   state.clearance = Clearance{};
   state.unentered = 0;
@@ -135,8 +135,11 @@ void watch_touched(ContactContext& context, const SearchStructures& search, bool
     decided.places_changed = !followed.all || followed.merged || followed.folded;
   }
   const PlaneContact& tracked = decided.contact.contact;
+  // What the finger is behind of it may leave at a place that is hardly nearer, as at a thin edge.
+  const bool behind = !pushes_with_others(tracked);
   const Takeover takeover = takeover_from(context, tracked, false, tracked.penetration_m > 0.0 ? kTremor : 1.0);
-  if (looks && look_for_touched(context, search, takeover, state, decided, touched)) return;
+  const Takeover nearer = behind ? takeover_from(context, tracked, false) : takeover;
+  if (looks && look_for_touched(context, search, nearer, takeover.bound_m, state, decided, touched)) return;
   if (state.unentered) return;
   if (!is_behind_in_inner_edge(context, decided.contact, touched))
     decide_touched(context, takeover.bound_m, touched, state.plane, decided);
@@ -249,17 +252,14 @@ void go_on_starting(ContactContext& context, const SearchStructures& search, boo
   }
 }
 
-/// Whether the followed contact counts as entered, and if not, whether there is one to go back to. True where it was
-/// gone back.
-bool judge_followed(ContactContext& context, const SearchStructures& search, Followed followed, TickState& state,
-                    DecidedContact& decided, TouchedContacts* touched) {
+/// Of a contact that leapt, or came up after ticks without one: whether it counts, and if not, whether there is one to
+/// go back to. True where another is decided on, or none.
+bool judge_leapt(ContactContext& context, const SearchStructures& search, bool leapt, TickState& state,
+                 DecidedContact& decided, TouchedContacts* touched) {
   const double depth = decided.contact.contact.penetration_m;
-  const bool inside = is_inside(context, state), free = !(depth > 0.0);
-  if (free) state.unentered = 0;  // left: from now on it counts
-  const bool leapt = followed == Followed::branched;
-  if (state.unentered || (!leapt && found_before(state))) return false;
-  const bool counts = free ? !inside || came_out(step_of(context), depth)
-                           : !is_unentered(context, state, decided.contact, decided.evaluations);
+  const bool inside = is_inside(context, state);
+  const bool counts = depth > 0.0 ? !is_unentered(context, state, decided.contact, decided.evaluations)
+                                  : !inside || came_out(step_of(context), depth);
   if (counts) return false;
   if ((leapt || inside) && go_back_to_entered(context, search, state, decided, touched)) return true;
   if (inside) {
@@ -270,6 +270,15 @@ bool judge_followed(ContactContext& context, const SearchStructures& search, Fol
   }
   state.unentered = 1;
   return false;
+}
+
+/// The same of the followed contact.
+bool judge_followed(ContactContext& context, const SearchStructures& search, Followed followed, TickState& state,
+                    DecidedContact& decided, TouchedContacts* touched) {
+  if (!(decided.contact.contact.penetration_m > 0.0)) state.unentered = 0;  // left: from now on it counts
+  const bool leapt = followed == Followed::branched;
+  if (state.unentered || (!leapt && found_before(state))) return false;
+  return judge_leapt(context, search, leapt, state, decided, touched);
 }
 
 /// Where a first search stands now. `begins`: it began in this tick.
@@ -313,6 +322,8 @@ bool follow_or_start(ContactContext& context, const SearchStructures& search, bo
 
 /// On the way to the next tick. `lost_depth_m`: by how much what is gone on with is less deep than what was lost.
 void remember_way(const ContactContext& context, double lost_depth_m, bool searching, TickState& state) {
+  state.late_m = state.lost_m = 0.0f;
+  if (!searching && !(context.lost_m > 0.0) && !(lost_depth_m > 0.0)) return;
   const bool elsewhere = was_put_elsewhere(step_of(context));
   state.late_m = searching && !elsewhere ? static_cast<float>(context.late_m + context.moved_m) : 0.0f;
   const double most = context.hystereses_m(kMostLateEntry);

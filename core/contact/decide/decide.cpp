@@ -90,13 +90,24 @@ bool decide_rival(const ContactContext& context, const RivalResult& rival, doubl
   return true;
 }
 
+/// Whether the finger has left what it is behind of: it is out, by more than a tremor, of a place that is nearer.
+static bool has_left_at(const ContactContext& context, const PlaneContact& place, const PlaneContact& tracked) {
+  return tracked.penetration_m > 0.0 && !pushes_with_others(tracked) &&
+         place.penetration_m < -context.hystereses_m(kTremor) &&
+         contact_rank(context.finger, place) <
+             takeover_bound_m(context.settings, contact_rank(context.finger, tracked));
+}
+
 bool decide_touched(ContactContext& context, double bound_m, TouchedContacts& touched, const TrackedPlane& kept,
                     DecidedContact& decided) {
   TouchedContact* deepest = nullptr;
   for (TouchedContact& c : std::span(touched.contacts).first(touched.count))
     if (!deepest || c.contact.penetration_m > deepest->contact.penetration_m) deepest = &c;
-  if (!deepest || !(contact_rank(context.finger, deepest->contact) < bound_m)) return false;
+  if (!deepest) return false;
   const TouchedContact tracked{decided.contact.plane, decided.contact.contact};
+  if (!(contact_rank(context.finger, deepest->contact) < bound_m) &&
+      !(decided.converged() && has_left_at(context, deepest->contact, tracked.contact)))
+    return false;
   if (decided.converged() && is_no_way_out(context, *deepest, tracked)) return false;
   IterationResult contact;
   ContactContext quiet = context;

@@ -81,8 +81,8 @@ bool came_out(const FingerStep& step, double depth_m);
 bool decide_rival(const ContactContext& context, const RivalResult& rival, double tracked_depth_m,
                   const TrackedPlane& kept, DecidedContact& decided);
 
-/// The deepest of the `touched` places takes over, if it is below that rank; the one that was rendered goes among them.
-/// True where it did.
+/// The deepest of the `touched` places takes over, if it is below that rank, or if the finger has left the rendered one
+/// there; that goes among them. True where it did.
 bool decide_touched(ContactContext& context, double bound_m, TouchedContacts& touched, const TrackedPlane& kept,
                     DecidedContact& decided);
 

@@ -291,9 +291,12 @@ TEST_CASE("where a deep contact ends the place that it goes on to pushes, though
   }
 }
 
-TEST_CASE("a finger that has crossed a wedge's sharp edge and stops is free") {
-  constexpr double kHalfAngle = 22.5 * kDegree, kLong = 0.04, kWide = 0.02, kThick = 2e-4;
-  const double across = kLong * std::tan(kHalfAngle);
+namespace {
+
+/// A closed wedge whose sharp edge is the y axis, to -x, symmetric about z = 0.
+ScenePtr wedge_scene(double half_angle) {
+  constexpr double kLong = 0.04, kWide = 0.02;
+  const double across = kLong * std::tan(half_angle);
   PolygonMesh wedge;
   for (const double y : {-kWide, kWide})
     for (const Vec3& corner : {Vec3(0.0, y, 0.0), Vec3(-kLong, y, across), Vec3(-kLong, y, -across)})
@@ -309,9 +312,17 @@ TEST_CASE("a finger that has crossed a wedge's sharp edge and stops is free") {
     wedge.add_face({f[0], f[1], f[2]});
   ContactMeshOptions options;
   options.crease_rad = 5.0 * kDegree;
-  const ScenePtr scene = scene_of(wedge, options);
+  ScenePtr scene = scene_of(wedge, options);
   CHECK(scene->mesh().is_closed());
   CHECK(scene->mesh().inside_out_triangles() == 0);
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("a finger that has crossed a wedge's sharp edge and stops is free") {
+  constexpr double kHalfAngle = 22.5 * kDegree, kThick = 2e-4;
+  const ScenePtr scene = wedge_scene(kHalfAngle);
   const double x = -0.5 * kThick / std::tan(kHalfAngle);
   for (const double radius : {0.0, 5e-4, 5e-3}) {
     Preset preset = sphere_preset(radius, Method::robust);
@@ -328,6 +339,36 @@ TEST_CASE("a finger that has crossed a wedge's sharp edge and stops is free") {
     CHECK(touched > 0);
     CHECK(not_free == 0);
   }
+}
+
+TEST_CASE("a point that has crossed a thin edge is not held in free air") {
+  Random random(3);
+  int outside = 0, pushed = 0;
+  double most_n = 0.0;
+  for (const double angle : {10.0, 20.0, 30.0, 45.0}) {
+    const double slope = std::tan(0.5 * angle * kDegree);
+    const ScenePtr scene = wedge_scene(0.5 * angle * kDegree);
+    for (int i = 0; i < rounds(60); ++i) {
+      const Preset preset = sphere_preset(0.0, Method::robust);
+      Stepper stepper(scene);
+      TickState state;
+      const Vec3 at(-random.in(1e-5, 2e-4) / slope, random.in(-0.005, 0.005), 0.0);
+      const Vec3 along = 1e-5 * unit(Vec3(random.in(-0.5, 0.5), 0.0, -1.0));
+      for (int k = -100; k < 400; ++k) {
+        const Vec3 position = at + (1.0 * k) * along;
+        const TickOutput out = stepper.step(preset, at_position(1e-3 * k, position), state);
+        const double off = (-position.z + position.x * slope) / std::sqrt(1.0 + slope * slope);  // of the far side
+        if (k < 0 || !(off > 1.2e-4)) continue;  // a tremor and what the point moves
+        ++outside;
+        pushed += out.decided_force_n != Vec3(0.0);
+        most_n = std::max(most_n, glm::length(out.decided_force_n));
+      }
+    }
+  }
+  MESSAGE(pushed << " of " << outside << " ticks that the point is off the far side push, by up to " << most_n << " N");
+  CHECK(outside > rounds(60) * 4 * 100);
+  CHECK(pushed * 200 < outside);
+  CHECK(most_n < 0.5);
 }
 
 TEST_CASE("what was lost a moment ago may come up again as deep, but the finger has come out of nothing by that") {
