@@ -135,8 +135,8 @@ void watch_touched(ContactContext& context, const SearchStructures& search, bool
     decided.places_changed = !followed.all || followed.merged || followed.folded;
   }
   const PlaneContact& tracked = decided.contact.contact;
-  // What the finger is behind of it may leave at a place that is hardly nearer, as at a thin edge.
-  const bool behind = !pushes_with_others(tracked);
+  // What it is behind of, of a closed body, the finger may leave at a place that is hardly nearer, as at a thin edge.
+  const bool behind = !pushes_with_others(tracked) && context.cache.mesh().is_closed();
   const Takeover takeover = takeover_from(context, tracked, false, tracked.penetration_m > 0.0 ? kTremor : 1.0);
   const Takeover nearer = behind ? takeover_from(context, tracked, false) : takeover;
   if (looks && look_for_touched(context, search, nearer, takeover.bound_m, state, decided, touched)) return;

@@ -90,9 +90,10 @@ bool decide_rival(const ContactContext& context, const RivalResult& rival, doubl
   return true;
 }
 
-/// Whether the finger has left what it is behind of: it is out, by more than a tremor, of a place that is nearer.
+/// Whether the finger has left the closed body that it is behind the surface of: it is out, by more than a tremor, of a
+/// place that is nearer.
 static bool has_left_at(const ContactContext& context, const PlaneContact& place, const PlaneContact& tracked) {
-  return tracked.penetration_m > 0.0 && !pushes_with_others(tracked) &&
+  return context.cache.mesh().is_closed() && tracked.penetration_m > 0.0 && !pushes_with_others(tracked) &&
          place.penetration_m < -context.hystereses_m(kTremor) &&
          contact_rank(context.finger, place) <
              takeover_bound_m(context.settings, contact_rank(context.finger, tracked));
