@@ -3,6 +3,7 @@
 #include "core/base/tolerances.h"
 #include "core/contact/decide/decide.h"
 #include "tests/core/fingers.h"
+#include "tests/core/random_bodies.h"
 #include "tests/core/scenes.h"
 #include "tests/core/spiky_ground.h"
 
@@ -164,17 +165,11 @@ WithoutForce go_round_stones(Preset preset, int stones, int ticks) {
   Random random{96};
   WithoutForce counts;
   for (int body = 0; body < stones; ++body) {
-    PolygonMesh stone = make_icosphere(0.036, 1 + body % 3);
-    for (Vec3& p : stone.positions) p *= random.in(0.85, 1.15);
-    stone.normals.clear();
-    stone.corner_normal.clear();
-    ContactMeshOptions options;
-    options.crease_rad = random.in(20.0, 60.0) * kDegree;
+    const ScenePtr stone = rough_stone(1 + body % 3, random);
     if (preset.finger.shape == FingerShape::sphere) preset.finger.radius_m = body % 3 ? 0.020 : 0.005;
     const Vec3 start = random.direction();
     random.direction();
-    go_round(scene_of(stone, options), preset, rounds(ticks), start, Random{1000u + static_cast<std::uint64_t>(body)},
-             counts);
+    go_round(stone, preset, rounds(ticks), start, Random{1000u + static_cast<std::uint64_t>(body)}, counts);
   }
   return counts;
 }

@@ -232,15 +232,10 @@ TEST_CASE(
   Random random{96};
   RoundBodies counts;
   for (int body = 0; body < kStones; ++body) {
-    PolygonMesh stone = make_icosphere(0.036, 1 + body % 3);
-    for (Vec3& p : stone.positions) p *= random.in(0.85, 1.15);
-    stone.normals.clear();
-    stone.corner_normal.clear();
-    ContactMeshOptions options;
-    options.crease_rad = random.in(20.0, 60.0) * kDegree;
+    const ScenePtr stone = rough_stone(1 + body % 3, random);
     Preset preset = sphere_preset(body % 3 ? 0.020 : 0.005, Method::robust);
     preset.force.contacts = ForceContacts::deepest;
-    go_round(scene_of(stone, options), preset, rounds(1000), random, counts);
+    go_round(stone, preset, rounds(1000), random, counts);
   }
   say(counts);
   CHECK(counts.unconverged == 0);
