@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/contact/edge_fan.h"
+#include "core/contact/face_outline.h"
 #include "core/mesh/vertex_ring.h"
 #include "core/surface/mesh_patch.h"
 #include "core/surface/patch_curvature.h"
@@ -27,6 +28,12 @@ struct PatchKey {
   std::uint32_t triangle = kNone;
   NormalForm form = NormalForm::bernstein;
   bool operator==(const PatchKey&) const = default;
+};
+
+/// What a first look at a face asked of it.
+struct CachedOutline {
+  PatchKey key;
+  FaceOutline outline;
 };
 
 /// A crease or boundary edge, the fan at the place where it was asked for last, and what they were built from.
@@ -67,6 +74,7 @@ class PatchCache {
       : mesh_(&mesh),
         held_(kPatches),
         patches_(std::make_unique_for_overwrite<CachedPatch[]>(kPatches)),
+        outlines_(kOutlines),
         is_large_(mesh.triangle_count() > kLarge) {}
 
   const ContactMesh& mesh() const { return *mesh_; }
@@ -90,6 +98,12 @@ class PatchCache {
   }
   /// Whether its patch keeps its front, once that is asked. Good until the next call for another triangle.
   PatchFront& front(std::uint32_t t, NormalForm form) { return patch_slot(t, form).front; }
+  /// Good until the next call for another triangle.
+  const FaceOutline& outline(std::uint32_t t, NormalForm form) {
+    CachedOutline& slot = outlines_[t % kOutlines];
+    if (slot.key != PatchKey{t, form}) slot = {{t, form}, face_outline(*mesh_, t, form)};
+    return slot.outline;
+  }
   /// Says that the contact is on triangle `t`, once at a tick's beginning and once at its end: on a large mesh the
   /// triangles beside it and those beside them, which it goes to next, come from the processor's slow memory, so they
   /// are asked for before.
@@ -136,7 +150,7 @@ class PatchCache {
  private:
   /// Direct-mapped. A contact revisits the few triangles around it, a search those of the last one: on rough ground
   /// hundreds.
-  static constexpr std::uint32_t kPatches = 512, kSlots = 16;
+  static constexpr std::uint32_t kPatches = 512, kOutlines = 512, kSlots = 16;
   CachedPatch& patch_slot(std::uint32_t t, NormalForm form) {
     const std::uint32_t slot = t % kPatches;
     if (held_[slot] != PatchKey{t, form}) fill(slot, t, form);
@@ -154,6 +168,7 @@ class PatchCache {
   const ContactMesh* mesh_;
   std::vector<PatchKey> held_;
   std::unique_ptr<CachedPatch[]> patches_;  ///< as held_ says
+  std::vector<CachedOutline> outlines_;
   std::array<CachedFan, kSlots> fans_;
   VertexSurroundings vertex_;
   static constexpr std::uint32_t kLarge = 1u << 16;  ///< triangles that no fast memory holds: some 5 MB

@@ -46,20 +46,20 @@ constexpr double kLeast = 0.15;
 
 /// Of a core as thin as a capsule's, whatever the normals: p is on its long axis, but for its width, and the misses are
 /// those of the centre but for what the axis is beside the direction that they are seen along.
-double exclusion_by_axis(const ContactMesh& mesh, std::uint32_t t, NormalForm form, const FingerCore& core,
-                         double enough_m) {
+double exclusion_by_axis(PatchCache& cache, std::uint32_t t, NormalForm form, const FingerCore& core, double enough_m) {
   const Vec3 &centre = core.centre(), &axis = core.long_axis();
-  CornerMisses misses(mesh, t, {centre, centre, centre});
+  CornerMisses misses(cache.mesh(), t, {centre, centre, centre});
   const double rounding = rounding_of_margin(centre, misses.p[0]);
   const auto seen = [&] {
     double off = 0.0;
     for (const Vec3& n : misses.n) off = std::max(off, std::abs(glm::dot(axis, glm::cross(n, misses.along))));
     off = core.longest_m() * off + core.width_m();
-    std::array<Vec3, 3> middle;
-    if (!(misses.least() > enough_m + off + rounding) || !misses.middle_normals(form, middle)) return 0.0;
-    for (const Vec3& n : middle)
+    if (!(misses.least() > enough_m + off + rounding)) return 0.0;
+    const FaceOutline& outline = cache.outline(t, form);
+    if (!outline.has_middles) return 0.0;
+    for (const Vec3& n : outline.middle_normals)
       off = std::max(off, core.longest_m() * std::abs(glm::dot(axis, glm::cross(n, misses.along))) + core.width_m());
-    return certain_margin(misses.clear(mesh, t, form) - off, rounding);
+    return certain_margin(misses.clear(outline) - off, rounding);
   };
   const double at_once = seen();
   if (at_once > 0.0 && at_once >= enough_m) return at_once;
@@ -71,30 +71,34 @@ double exclusion_by_axis(const ContactMesh& mesh, std::uint32_t t, NormalForm fo
   return std::max(at_once, seen());
 }
 
-double exclusion_by_supports(const ContactMesh& mesh, std::uint32_t t, NormalForm form, const FingerCore& core,
+double exclusion_by_supports(PatchCache& cache, std::uint32_t t, NormalForm form, const FingerCore& core,
                              double enough_m) {
-  const std::array<Vec3, 3> n = mesh.normals(t);
-  const CornerMisses misses(mesh, t, {core.support(n[0]).point, core.support(n[1]).point, core.support(n[2]).point});
+  const std::array<Vec3, 3> n = cache.mesh().normals(t);
+  const CornerMisses misses(cache.mesh(), t,
+                            {core.support(n[0]).point, core.support(n[1]).point, core.support(n[2]).point});
   const double rounding = rounding_of_margin(core.centre(), misses.p[0]);
-  std::array<Vec3, 3> middle;
-  if (!(misses.least() > enough_m + rounding) || !misses.middle_normals(form, middle)) return 0.0;
+  if (!(misses.least() > enough_m + rounding)) return 0.0;
+  const FaceOutline& outline = cache.outline(t, form);
+  if (!outline.has_middles) return 0.0;
+  const std::array<Vec3, 3>& middle = outline.middle_normals;
   const CoreControlPoints control(core, {n[0], n[1], n[2], middle[0], middle[1], middle[2]});
   if (!(misses.least() > enough_m + control.off_m + rounding)) return 0.0;
-  const double clear = misses.clear(mesh, t, middle, {control.points[3], control.points[4], control.points[5]});
+  const double clear = misses.clear(outline, {control.points[3], control.points[4], control.points[5]});
   return core.way_within(core.longest_m(), control.least_length_m, certain_margin(clear - control.off_m, rounding));
 }
 
 }  // namespace
 
-double corner_exclusion_by_core(const ContactMesh& mesh, std::uint32_t t, NormalForm form, const FingerCore& core,
+double corner_exclusion_by_core(PatchCache& cache, std::uint32_t t, NormalForm form, const FingerCore& core,
                                 double enough_m) {
-  if (!is_thin(core)) return exclusion_by_supports(mesh, t, form, core, enough_m);
+  const ContactMesh& mesh = cache.mesh();
+  if (!is_thin(core)) return exclusion_by_supports(cache, t, form, core, enough_m);
   const Vec3& axis = core.long_axis();
   const double a = glm::dot(mesh.normal(t, 0), axis), b = glm::dot(mesh.normal(t, 1), axis),
                c = glm::dot(mesh.normal(t, 2), axis);
   const bool leans = std::max(std::min({a, b, c}), -std::max({a, b, c})) > kLeast;
-  return leans ? exclusion_by_supports(mesh, t, form, core, enough_m)
-               : exclusion_by_axis(mesh, t, form, core, enough_m);
+  return leans ? exclusion_by_supports(cache, t, form, core, enough_m)
+               : exclusion_by_axis(cache, t, form, core, enough_m);
 }
 
 }  // namespace tangent

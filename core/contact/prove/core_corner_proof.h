@@ -2,9 +2,8 @@
 // core's for the corner's normal, p(N), and between the corners p goes all but linearly from one to the others.
 #pragma once
 
+#include "core/contact/patch_cache.h"
 #include "core/finger/finger_core.h"
-#include "core/mesh/contact_mesh.h"
-#include "core/surface/pn_patch.h"
 
 #include <array>
 #include <cstdint>
@@ -29,7 +28,7 @@ struct CoreControlPoints {
 
 /// How far the finger may go before it could have a contact on the face of triangle t, as far as the corners' misses
 /// tell; of less than `enough_m` nothing is told. 0: look closer.
-double corner_exclusion_by_core(const ContactMesh& mesh, std::uint32_t t, NormalForm form, const FingerCore& core,
+double corner_exclusion_by_core(PatchCache& cache, std::uint32_t t, NormalForm form, const FingerCore& core,
                                 double enough_m);
 
 }  // namespace tangent

@@ -224,7 +224,7 @@ PatchExclusion exclude_face_by_core(ContactContext& context, const FingerCore& c
                                     const RankBound& bound, double enough_m) {
   const NormalForm form = context.settings.normal_form;
   const double wanted = kCornersShare * enough_m;
-  const double by_corners = corner_exclusion_by_core(context.cache.mesh(), t, form, core, wanted);
+  const double by_corners = corner_exclusion_by_core(context.cache, t, form, core, wanted);
   PatchExclusion proof;
   if (!(by_corners > 0.0 && by_corners >= wanted))
     proof = exclude_pieces(context, context.cache.patch(t, form), core, bound, enough_m);

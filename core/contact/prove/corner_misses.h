@@ -3,8 +3,7 @@
 // Inline: a search asks it of most faces that it meets.
 #pragma once
 
-#include "core/mesh/contact_mesh.h"
-#include "core/surface/pn_patch.h"
+#include "core/contact/face_outline.h"
 
 #include <algorithm>
 #include <array>
@@ -42,51 +41,20 @@ struct CornerMisses {
   /// How far the misses of the whole patch stay clear of zero along it, for a point that goes linearly from corner to
   /// corner: with the normals as they are a cubic, less what the patch is off the flat triangle: a third of what sides
   /// lean out of their ends' planes at most, or of a crease's length. 0: nothing is known.
-  double clear(const ContactMesh& mesh, std::uint32_t t, NormalForm form) const;
+  double clear(const FaceOutline& outline) const;
   /// The same for one whose control points over the middles of the sides are these: with the normals a quartic.
-  double clear(const ContactMesh& mesh, std::uint32_t t, const std::array<Vec3, 3>& middle_normals,
-               const std::array<Vec3, 3>& middle_points) const;
-  /// The control normals over the middles of the sides, in Bernstein form; false: there are none.
-  bool middle_normals(NormalForm form, std::array<Vec3, 3>& middle) const;
+  double clear(const FaceOutline& outline, const std::array<Vec3, 3>& middle_points) const;
 
  private:
-  /// What the patch is off the flat triangle at most, times three.
-  double lean(const ContactMesh& mesh, std::uint32_t t) const;
-
   double least_ = 0.0;
 };
 
-inline bool CornerMisses::middle_normals(NormalForm form, std::array<Vec3, 3>& middle) const {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t j = (k + 1) % 3;
-    const Vec3 side = p[j] - p[k], sum = n[k] + n[j];
-    const double side2 = glm::dot(side, side), sum2 = glm::dot(sum, sum);
-    if (!(sum2 > 1e-6)) return false;
-    const double share = (form == NormalForm::bernstein ? 1.0 : 0.5) / std::sqrt(sum2);
-    middle[k] = share * (sum - (2.0 * glm::dot(side, sum) / side2) * side);
-  }
-  return true;
-}
-
-inline double CornerMisses::lean(const ContactMesh& mesh, std::uint32_t t) const {
-  double most = 0.0;
-  for (std::uint32_t k = 0; k < 3; ++k) {
-    const std::uint32_t j = (k + 1) % 3;
-    const Vec3 side = p[j] - p[k];
-    const bool smooth = mesh.edge_kind(t, k) == EdgeKind::smooth;
-    most = std::max(most, smooth ? std::max(std::abs(glm::dot(side, n[k])), std::abs(glm::dot(side, n[j])))
-                                 : std::sqrt(glm::dot(side, side)));
-  }
-  return most;
-}
-
-inline double CornerMisses::clear(const ContactMesh& mesh, std::uint32_t t, NormalForm form) const {
-  std::array<Vec3, 3> middle;
-  if (!(least_ > 0.0) || !middle_normals(form, middle)) return 0.0;
+inline double CornerMisses::clear(const FaceOutline& outline) const {
+  if (!(least_ > 0.0) || !outline.has_middles) return 0.0;
   std::array<Vec3, 6> q;  // (c - P) x N along it is (c - P).q
   for (std::size_t k = 0; k < 3; ++k) {
     q[k] = glm::cross(n[k], along);
-    q[3 + k] = glm::cross(middle[k], along);
+    q[3 + k] = glm::cross(outline.middle_normals[k], along);
   }
   const auto g = [&](std::size_t point, std::size_t normal) { return glm::dot(away[point], q[normal]); };
   double smallest = least_;
@@ -96,18 +64,17 @@ inline double CornerMisses::clear(const ContactMesh& mesh, std::uint32_t t, Norm
     smallest = std::min(smallest, (g(k, j) + 2.0 * g(j, 3 + k)) / 3.0);
   }
   smallest = std::min(smallest, (g(0, 4) + g(1, 5) + g(2, 3)) / 3.0);
-  return std::max(0.0, smallest - lean(mesh, t) / 3.0);
+  return std::max(0.0, smallest - outline.lean_m / 3.0);
 }
 
-inline double CornerMisses::clear(const ContactMesh& mesh, std::uint32_t t, const std::array<Vec3, 3>& middle_normals,
-                                  const std::array<Vec3, 3>& middle_points) const {
-  if (!(least_ > 0.0)) return 0.0;
+inline double CornerMisses::clear(const FaceOutline& outline, const std::array<Vec3, 3>& middle_points) const {
+  if (!(least_ > 0.0) || !outline.has_middles) return 0.0;
   std::array<Vec3, 6> a, q;
   for (std::size_t k = 0; k < 3; ++k) {
     a[k] = away[k];
     a[3 + k] = middle_points[k] - 0.5 * (p[k] + p[(k + 1) % 3]);
     q[k] = glm::cross(n[k], along);
-    q[3 + k] = glm::cross(middle_normals[k], along);
+    q[3 + k] = glm::cross(outline.middle_normals[k], along);
   }
   const auto g = [&](std::size_t point, std::size_t normal) { return glm::dot(a[point], q[normal]); };
   double smallest = least_;
@@ -118,7 +85,7 @@ inline double CornerMisses::clear(const ContactMesh& mesh, std::uint32_t t, cons
     smallest = std::min(smallest, (g(k, j) + g(j, k) + 4.0 * g(side, side)) / 6.0);
     smallest = std::min(smallest, (g(k, next) + g(next, k) + 2.0 * (g(side, last) + g(last, side))) / 6.0);
   }
-  return std::max(0.0, smallest - lean(mesh, t) / 3.0);
+  return std::max(0.0, smallest - outline.lean_m / 3.0);
 }
 
 }  // namespace tangent

@@ -185,16 +185,16 @@ static CornerMisses misses_of(const ContactMesh& mesh, std::uint32_t t, const Ve
   return {mesh, t, {centre, centre, centre}};
 }
 
-double corner_exclusion(const ContactMesh& mesh, std::uint32_t t, NormalForm form, const Vec3& centre) {
-  const CornerMisses misses = misses_of(mesh, t, centre);
+double corner_exclusion(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre) {
+  const CornerMisses misses = misses_of(cache.mesh(), t, centre);
   if (!(misses.least() > 0.0)) return 0.0;
-  return certain_margin(misses.clear(mesh, t, form), rounding_of_margin(centre, misses.p[0]));
+  return certain_margin(misses.clear(cache.outline(t, form)), rounding_of_margin(centre, misses.p[0]));
 }
 
-bool corners_exclude(const ContactMesh& mesh, std::uint32_t t, NormalForm form, const Vec3& centre, double enough_m) {
-  const CornerMisses misses = misses_of(mesh, t, centre);
+bool corners_exclude(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre, double enough_m) {
+  const CornerMisses misses = misses_of(cache.mesh(), t, centre);
   const double wanted = enough_m + rounding_of_margin(centre, misses.p[0]);
-  return misses.least() > wanted && misses.clear(mesh, t, form) >= wanted;
+  return misses.least() > wanted && misses.clear(cache.outline(t, form)) >= wanted;
 }
 
 }  // namespace tangent

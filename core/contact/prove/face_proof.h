@@ -9,9 +9,7 @@
 #pragma once
 
 #include "core/contact/contact_rank.h"
-#include "core/mesh/contact_mesh.h"
-#include "core/surface/patch_curvature.h"
-#include "core/surface/pn_patch.h"
+#include "core/contact/patch_cache.h"
 
 #include <algorithm>
 #include <array>
@@ -74,9 +72,9 @@ PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double 
 
 /// A first look at a face from its corners' places and normals alone, without its patch: no centre nearer than this has
 /// a contact on it, as far as the direction of the middle of the corners' misses (c - P) x N tells. 0: look closer.
-double corner_exclusion(const ContactMesh& mesh, std::uint32_t t, NormalForm form, const Vec3& centre);
+double corner_exclusion(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre);
 
 /// Whether the corners tell that no centre nearer than `enough_m` has a contact on the face.
-bool corners_exclude(const ContactMesh& mesh, std::uint32_t t, NormalForm form, const Vec3& centre, double enough_m);
+bool corners_exclude(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre, double enough_m);
 
 }  // namespace tangent

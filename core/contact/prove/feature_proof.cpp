@@ -11,7 +11,7 @@
 namespace tangent {
 namespace {
 
-constexpr int kCurveHalvings = 3;
+constexpr int kCurveHalvings = 3, kEdgeHalvings = 3;
 constexpr int kTestsOfEdge = 4, kFacesOfTest = 2;  // what a close look at an edge costs, and at the faces of a vertex
 
 /// An edge of a triangle by its curve's control points, local coordinates.
@@ -185,6 +185,47 @@ struct Question {
   bool glance;  ///< a margin under enough_m is worth nothing
 };
 
+/// An edge, or a part of it, by the triangles on both sides; the far one counts it the other way round.
+struct EdgeSides {
+  EdgeEnds near, far;
+  bool has_far = false;
+};
+
+/// The near half of an edge's ends, whose new end is its place on the curve, and the other one.
+std::array<EdgeEnds, 2> halves_of(const EdgeEnds& e) {
+  const auto& b = e.curve;
+  const Vec3 ab = 0.5 * (b[0] + b[1]), bc = 0.5 * (b[1] + b[2]), cd = 0.5 * (b[2] + b[3]);
+  const Vec3 abc = 0.5 * (ab + bc), bcd = 0.5 * (bc + cd), middle = 0.5 * (abc + bcd);
+  const Vec3 first = 0.5 * (e.np + e.middle_normal), second = 0.5 * (e.middle_normal + e.nq);
+  const Vec3 normal = 0.5 * (first + second);
+  return {EdgeEnds{b[0], middle, e.np, normal, e.inside, first, {b[0], ab, abc, middle}},
+          EdgeEnds{middle, b[3], normal, e.nq, e.inside, second, {middle, bcd, cd, b[3]}}};
+}
+std::array<EdgeSides, 2> halves_of(const EdgeSides& edge) {
+  const std::array<EdgeEnds, 2> near = halves_of(edge.near);
+  if (!edge.has_far) return {EdgeSides{near[0], {}, false}, EdgeSides{near[1], {}, false}};
+  const std::array<EdgeEnds, 2> far = halves_of(edge.far);
+  return {EdgeSides{near[0], far[1], true}, EdgeSides{near[1], far[0], true}};
+}
+
+/// Of an edge that is not excluded as a whole by as much as is wanted: the least of its parts' margins, each by what
+/// tells most of it. Parts that tell less are halved.
+double parts_margin(const Question& q, const EdgeSides& edge, double wanted, int halvings, FeatureExclusion& result) {
+  double least = std::numeric_limits<double>::max();
+  for (const EdgeSides& part : halves_of(edge)) {
+    ++result.tests;
+    const double behind = q.bound.way_to(curve_distance(part.near.curve, q.centre, 0.0, 0.0, 0));
+    double safe = std::max(behind, beyond_ends(part.near, q.centre));
+    if (safe < wanted) safe = std::max(safe, over_face(part.near, q.centre));
+    if (safe < wanted && part.has_far) safe = std::max(safe, over_face(part.far, q.centre));
+    result.by_rank = result.by_rank || behind >= safe;
+    if (safe < wanted && halvings > 1) safe = parts_margin(q, part, wanted, halvings - 1, result);
+    least = std::min(least, safe);
+    if (least < wanted) break;
+  }
+  return least;
+}
+
 FeatureExclusion edge_margin(const Question& q, std::uint32_t k) {
   double safe = q.bound.way_to(edge_distance(q.mesh, q.t, k, q.centre));
   if (safe > 0.0 && safe >= q.enough_m) return {safe, true, 0};
@@ -194,13 +235,15 @@ FeatureExclusion edge_margin(const Question& q, std::uint32_t k) {
   safe = q.bound.way_to(curve_distance(curve, q.centre, 0.0, 0.0, 0));
   if (safe > 0.0 && safe >= wanted) return {safe - q.rounding_m, true, kTestsOfEdge};
   const double behind = safe;
-  const EdgeEnds ends = edge_ends(q.mesh, patch, q.t, k);
-  safe = std::max(safe, beyond_ends(ends, q.centre));
-  if (safe < wanted) safe = std::max(safe, over_face(ends, q.centre));
+  EdgeSides edge{edge_ends(q.mesh, patch, q.t, k), {}, false};
+  safe = std::max(safe, beyond_ends(edge.near, q.centre));
+  if (safe < wanted) safe = std::max(safe, over_face(edge.near, q.centre));
   const EdgeLink other = q.mesh.across(q.t, k);
   if (safe < wanted && other.triangle != kNone) {
     const PnPatch& beside = q.cache.patch(other.triangle, q.form);
-    safe = std::max(safe, over_face(edge_ends(q.mesh, beside, other.triangle, other.edge), q.centre));
+    edge.far = edge_ends(q.mesh, beside, other.triangle, other.edge);
+    edge.has_far = true;
+    safe = std::max(safe, over_face(edge.far, q.centre));
   }
   bool by_rank = behind >= safe;
   if (safe < wanted) {
@@ -209,7 +252,12 @@ FeatureExclusion edge_margin(const Question& q, std::uint32_t k) {
     by_rank = by_rank || q.bound.way_to(distance) > safe;
     safe = std::max(safe, q.bound.way_to(distance));
   }
-  return {certain_margin(safe, q.rounding_m), by_rank, kTestsOfEdge};
+  FeatureExclusion result{certain_margin(safe, q.rounding_m), by_rank, kTestsOfEdge};
+  if (q.glance || result.margin_m > 0.0) return result;
+  result.by_rank = false;
+  const double least = parts_margin(q, edge, 2.0 * q.rounding_m, kEdgeHalvings, result);
+  result.margin_m = certain_margin(least, q.rounding_m);
+  return result;
 }
 
 FeatureExclusion vertex_margin(const Question& q, std::uint32_t k) {

@@ -43,7 +43,7 @@ constexpr double kAtOnceShare = 0.25;
 PatchExclusion exclude_face(ContactContext& context, std::uint32_t t, const RankBound& bound, double enough_m) {
   const Vec3& centre = context.pose.position;
   PatchExclusion proof;
-  const double at_once = std::max(corner_exclusion(context.cache.mesh(), t, context.settings.normal_form, centre),
+  const double at_once = std::max(corner_exclusion(context.cache, t, context.settings.normal_form, centre),
                                   even_exclusion(context.cache.mesh(), t, centre));
   if (at_once > 0.0 && at_once >= kAtOnceShare * enough_m) {
     proof.margin_m = at_once;
@@ -171,11 +171,11 @@ bool excludes_at_a_glance(ContactContext& context, const FingerCore* core, const
   const NormalForm form = context.settings.normal_form;
   // A closer look tells little more: of a capsule's faces on a random body 1 in 14 of the rest.
   if (core) {
-    const double by_corners = corner_exclusion_by_core(mesh, part.triangle, form, *core, enough_m);
+    const double by_corners = corner_exclusion_by_core(context.cache, part.triangle, form, *core, enough_m);
     return by_corners > 0.0 && by_corners >= enough_m;
   }
   const Vec3& centre = context.pose.position;
-  return corners_exclude(mesh, part.triangle, form, centre, enough_m) ||
+  return corners_exclude(context.cache, part.triangle, form, centre, enough_m) ||
          even_exclusion(mesh, part.triangle, centre) >= enough_m;
 }
 

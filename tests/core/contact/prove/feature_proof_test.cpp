@@ -18,7 +18,7 @@ namespace {
 
 /// Of contacts put on features: how far a finger beside one is told that it may go until it can be there.
 struct Told {
-  int missed = 0, told = 0, all = 0, none_is_less = 0;
+  int missed = 0, told = 0, all = 0, glance_tells_more = 0;
   double nearest = 0.0;  ///< the farthest, as a ratio to how far it is
 
   /// A contact at a point with that normal, at a height, and a centre some way off.
@@ -36,7 +36,7 @@ struct Told {
     ++all;
     missed += margin > way * (1.0 + 1e-9) + 1e-12;
     missed += or_none >= enough && or_none > way * (1.0 + 1e-9) + 1e-12;
-    none_is_less += enough > 0.0 && (or_none >= enough) != (margin >= enough);
+    glance_tells_more += enough > 0.0 && or_none >= enough && margin < enough;
     told += margin > 0.0;
     if (margin > 0.0) nearest = std::max(nearest, margin / way);
   }
@@ -45,7 +45,7 @@ struct Told {
     MESSAGE(missed << " missed of " << all << ", " << told << " excluded, by up to " << nearest << " of the way");
     CHECK(all > rounds(10000));
     CHECK(missed == 0);
-    CHECK(none_is_less == 0);
+    CHECK(glance_tells_more == 0);
     CHECK(told > all / 20);
     CHECK(nearest > 0.5);  // and does not fall far short
   }
@@ -80,4 +80,27 @@ TEST_CASE("no round finger is kept off a vertex that it touches or can come to t
     }
   }
   told.check();
+}
+
+TEST_CASE("beside a contact on a vertex its edges are excluded, by parts where they bend") {
+  Random random(331);
+  int edges = 0, excluded = 0;
+  for (const ContactMesh& mesh : creased_meshes_and_rims()) {
+    PatchCache cache(mesh);
+    for (int i = 0; i < rounds(40000); ++i) {
+      const std::uint32_t t = random.below(mesh.triangle_count()), corner = random.below(3);
+      const std::optional<Vec3> normal = normal_of_corner(mesh, t, corner, random);
+      if (!normal) continue;
+      const double height = random.in(0.005, 0.020);
+      const Vec3 centre = mesh.position(t, corner) + height * *normal;
+      for (const std::uint32_t side : {corner, (corner + 2) % 3}) {
+        if (mesh.edge_kind(t, side) == EdgeKind::smooth) continue;
+        ++edges;
+        excluded +=
+            exclude_feature_contacts(cache, {t, side}, NormalForm::bernstein, centre, {1.5 * height}).margin_m > 0.0;
+      }
+    }
+  }
+  MESSAGE(excluded << " of " << edges << " edges excluded");
+  CHECK(100.0 * excluded > 89.0 * edges);  // 88.2 in 100 as a whole, 90.1 by parts
 }

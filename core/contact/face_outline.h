@@ -1,0 +1,24 @@
+// What a first look at a face asks of it besides its corners. It takes roots, so it is kept (contact/patch_cache.h).
+#pragma once
+
+#include "core/mesh/contact_mesh.h"
+#include "core/surface/pn_patch.h"
+
+#include <array>
+#include <cstdint>
+
+namespace tangent {
+
+struct FaceOutline {
+  /// The control normals over the middles of the sides, from corner 0 to 1 and so on, in Bernstein form: none is longer
+  /// than 1.
+  std::array<Vec3, 3> middle_normals{};
+  bool has_middles = false;  ///< false: the normals at the ends of a side cancel out
+  /// What the patch is off the flat triangle at most, times three, m: what sides lean out of their ends' planes, or the
+  /// length of a crease.
+  double lean_m = 0.0;
+};
+
+FaceOutline face_outline(const ContactMesh& mesh, std::uint32_t t, NormalForm form);
+
+}  // namespace tangent
