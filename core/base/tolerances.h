@@ -36,6 +36,11 @@ inline constexpr double kSameNormal = 1e-6;
 /// Larger: thin fins lose their averaged normal. Smaller: the direction is rounding noise.
 inline constexpr double kCancelledNormal = 1e-9;
 
+/// Ratio to the area of a part of the mesh. Open in less than this it is still a body's surface, inside which a finger
+/// that has lost its contact is not free: 0.04 of the Stanford bunny are holes. Larger: bowls count as bodies, and a
+/// finger that has come under their rim is held for a moment; smaller: in scans with holes fingers fall through.
+inline constexpr double kHoleShare = 0.1;
+
 /// Ratio, audit only. A triangle whose smallest height is below this part of its longest side is listed as a sliver.
 /// Nothing is skipped by it. Larger: ordinary long triangles are listed. Smaller: troublesome ones are not.
 inline constexpr double kSliverAspect = 1e-2;

@@ -90,14 +90,24 @@ struct EnteredPlaces {
   /// It was so deep in something that it can't have left it all since: a place that it doesn't touch is no way out.
   bool pressed = false;
   bool inside = false;  ///< pressed into a closed body, and not far from there
+  /// Inside: so far what was tracked may slide along the surface when its place ends there.
+  double most_slide_m = 0.0;
 
   bool hold(const TrackedPlane& plane, const PlaneContact& contact) const {
-    return !(contact.penetration_m > deepest_m) && !(contact.height_m < -behind_m) &&
+    return !(contact.penetration_m > deepest_m + slide_m(plane)) && !(contact.height_m < -behind_m) &&
            !(last && is_far_side({plane, contact}, *last));
   }
   /// Whether a lost contact may go on there, rather than at others.
   bool go_on_at(const TrackedPlane& plane, const PlaneContact& contact) const {
     return hold(plane, contact) && (!pressed || contact.penetration_m > 0.0);
+  }
+  /// By how much deeper than others a place may be: inside a body, where a contact ends, a god-object slides on along
+  /// the surface to where it rests again, and no depth changes by more than its way there. 0 where that is too far, or
+  /// faces elsewhere.
+  double slide_m(const TrackedPlane& plane) const {
+    if (!inside || !last || !(glm::dot(plane.normal, last->plane.normal) > 0.0)) return 0.0;
+    const double way = glm::distance(plane.point, last->plane.point);
+    return way <= most_slide_m ? way : 0.0;
   }
 };
 

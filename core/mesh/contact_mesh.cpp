@@ -3,6 +3,7 @@
 
 #include "core/base/float_state.h"
 #include "core/base/tolerances.h"
+#include "core/mesh/body.h"
 #include "core/mesh/content_hash.h"
 #include "core/mesh/corner_normals.h"
 #include "core/mesh/edge_table.h"
@@ -66,7 +67,6 @@ class ContactMeshBuilder {
   void take_file_normals(const SurfaceView& surface, std::span<const Vec3> faces);
   void turn_inside_out(const InsideOut& inside_out);
   bool finds_concave_crease() const;
-  bool finds_boundary() const;
   void finish();
   tl::unexpected<Error> nothing_usable() const;
 
@@ -349,16 +349,10 @@ bool ContactMeshBuilder::finds_concave_crease() const {
   return false;
 }
 
-bool ContactMeshBuilder::finds_boundary() const {
-  for (std::uint32_t t = 0; t < mesh_.triangle_count(); ++t)
-    if (mesh_.usable(t) && std::ranges::count(mesh_.links_[t], kNone) > 0) return true;
-  return false;
-}
-
 void ContactMeshBuilder::finish() {
   mesh_.crease_bits_ = feature_bits(surface(), CornerNormalsView{mesh_.normals_, mesh_.normal_index_}, run_both_);
   mesh_.has_concave_crease_ = finds_concave_crease();
-  mesh_.is_closed_ = !finds_boundary();
+  mesh_.is_body_ = is_body(surface());
   mesh_.flat_regions_ = FlatRegions::build(mesh_, run_both_);
   mesh_.crowded_ = crowded_vertices(mesh_);
   mesh_.name_ = source_.name;

@@ -145,8 +145,8 @@ class ContactMesh {
   bool concave_crease(std::uint32_t t, std::uint32_t edge) const;
   /// Whether there is such a crease anywhere: only beside one can a wall end under a finger that still touches it.
   bool has_concave_crease() const { return has_concave_crease_; }
-  /// Whether no usable triangle ends at a boundary: what is inside has no other way out than through the surface.
-  bool is_closed() const { return is_closed_; }
+  /// Whether it is the surface of a body, closed but for small holes (body.h).
+  bool is_body() const { return is_body_; }
 
   /// Asks the processor for what is kept of a triangle, so that it is on its way when it is read.
   void prefetch(std::uint32_t t) const {
@@ -200,7 +200,7 @@ class ContactMesh {
   UnfilledVector<std::array<std::uint32_t, 3>> normal_index_;
   UnfilledVector<std::array<std::uint32_t, 3>> links_;  ///< triangle << 2 | edge, or kNone
   std::vector<std::uint8_t> crease_bits_;  ///< bit k: edge k is a crease; bit 3+k: corner k touches a feature edge
-  bool has_concave_crease_ = false, is_closed_ = false;
+  bool has_concave_crease_ = false, is_body_ = false;
   FlatRegions flat_regions_;
   std::vector<CrowdedVertex> crowded_;
   std::array<MeshDefectList, kMeshDefectCount> defects_;

@@ -52,7 +52,7 @@ double most_behind_m(const ContactContext& context) { return context.hystereses_
 /// Whether the finger is taken to be still inside a closed body: it is deep in the plane that converged last, a moment
 /// ago, and near its place.
 bool is_inside(const ContactContext& context, const TickState& state) {
-  if (context.settings.method != Method::robust || !context.cache.mesh().is_closed()) return false;
+  if (context.settings.method != Method::robust || !context.cache.mesh().is_body()) return false;
   const bool lately = state.has_converged && state.last_t_s - state.last_converged_s <= kInsideFor;
   if (!lately || state.unentered) return false;
   FingerStep step = step_of(context);
@@ -136,7 +136,7 @@ void watch_touched(ContactContext& context, const SearchStructures& search, bool
   }
   const PlaneContact& tracked = decided.contact.contact;
   // What it is behind of, of a closed body, the finger may leave at a place that is hardly nearer, as at a thin edge.
-  const bool behind = !pushes_with_others(tracked) && context.cache.mesh().is_closed();
+  const bool behind = !pushes_with_others(tracked) && context.cache.mesh().is_body();
   const Takeover takeover = takeover_from(context, tracked, false, tracked.penetration_m > 0.0 ? kTremor : 1.0);
   const Takeover nearer = behind ? takeover_from(context, tracked, false) : takeover;
   if (looks && look_for_touched(context, search, nearer, takeover.bound_m, state, decided, touched)) return;
@@ -171,7 +171,9 @@ EnteredPlaces entered_places(ContactContext& context, const TickState& state, in
   entered.pressed = entered.inside || is_pressed(step, deepest);
   entered.deepest_m = deepest_entered_m(step, deepest, found_before(state) && !(deepest > 0.0));
   if (!(before > 0.0) || was_put_elsewhere(step)) return entered;
+  entered.most_slide_m = std::max(context.hystereses_m(kLeapOfFinger), context.finger.reach_m());
   TouchedContact& last = entered.last.emplace();
+  last.plane.point = state.last_converged.point;
   last.plane.normal = state.last_converged.normal;
   last.contact = contact_on_plane(context.finger, context.pose, state.last_converged.point, last.plane.normal);
   return entered;
@@ -258,7 +260,11 @@ bool judge_leapt(ContactContext& context, const SearchStructures& search, bool l
                  DecidedContact& decided, TouchedContacts* touched) {
   const double depth = decided.contact.contact.penetration_m;
   const bool inside = is_inside(context, state);
-  const bool counts = depth > 0.0 ? !is_unentered(context, state, decided.contact, decided.evaluations)
+  const IterationResult& found = decided.contact;
+  const auto slid = [&] {
+    return inside && entered_places(context, state, decided.evaluations).hold(found.plane, found.contact);
+  };
+  const bool counts = depth > 0.0 ? !is_unentered(context, state, found, decided.evaluations) || slid()
                                   : !inside || came_out(step_of(context), depth);
   if (counts) return false;
   if ((leapt || inside) && go_back_to_entered(context, search, state, decided, touched)) return true;

@@ -24,12 +24,16 @@ inline PolygonMesh random_blob(Random& random) {
   return mesh;
 }
 
-/// A rough stone of about 36 mm, with creases from an angle of 20 to 60 degrees on.
-inline ScenePtr rough_stone(int subdivisions, Random& random) {
+/// A rough stone of about 36 mm, with creases from an angle of 20 to 60 degrees on; the same with a face less.
+inline ScenePtr rough_stone(int subdivisions, Random& random, bool with_hole = false) {
   PolygonMesh stone = make_icosphere(0.036, subdivisions);
   for (Vec3& p : stone.positions) p *= random.in(0.85, 1.15);
   stone.normals.clear();
   stone.corner_normal.clear();
+  if (with_hole) {
+    stone.face_offsets.pop_back();
+    stone.corner_position.resize(stone.face_offsets.back());
+  }
   ContactMeshOptions options;
   options.crease_rad = random.in(20.0, 60.0) * kDegree;
   return scene_of(stone, options);

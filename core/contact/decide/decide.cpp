@@ -24,7 +24,7 @@ Takeover takeover_from(const ContactContext& context, const PlaneContact& follow
                        double hystereses) {
   const double bound = takeover_bound_m(context.settings, contact_rank(context.finger, followed), hystereses);
   if (pushes_alone && is_behind(context.finger, followed)) {
-    const bool closed = context.cache.mesh().is_closed();
+    const bool closed = context.cache.mesh().is_body();
     const double way_out = closed ? context.soon_touched_rank() : context.finger.reach_m();
     return {std::min(bound, way_out), way_out < bound};
   }
@@ -72,7 +72,7 @@ double deepest_entered_m(const FingerStep& step, double before_m, bool was_free)
 /// finger has come at its far side.
 static bool is_no_way_out(const ContactContext& context, const TouchedContact& place, const TouchedContact& tracked) {
   if (!is_free(context.finger, place.contact) || !is_behind(context.finger, tracked.contact)) return false;
-  return !context.cache.mesh().is_closed() || !faces_away(place.plane, tracked.plane);
+  return !context.cache.mesh().is_body() || !faces_away(place.plane, tracked.plane);
 }
 
 bool decide_rival(const ContactContext& context, const RivalResult& rival, double tracked_depth_m,
@@ -93,7 +93,7 @@ bool decide_rival(const ContactContext& context, const RivalResult& rival, doubl
 /// Whether the finger has left the closed body that it is behind the surface of: it is out, by more than a tremor, of a
 /// place that is nearer.
 static bool has_left_at(const ContactContext& context, const PlaneContact& place, const PlaneContact& tracked) {
-  return context.cache.mesh().is_closed() && tracked.penetration_m > 0.0 && !pushes_with_others(tracked) &&
+  return context.cache.mesh().is_body() && tracked.penetration_m > 0.0 && !pushes_with_others(tracked) &&
          place.penetration_m < -context.hystereses_m(kTremor) &&
          contact_rank(context.finger, place) <
              takeover_bound_m(context.settings, contact_rank(context.finger, tracked));

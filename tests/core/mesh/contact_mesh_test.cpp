@@ -280,22 +280,41 @@ TEST_CASE("links and creases of messy meshes are those that a walk from triangle
   CHECK(all == 15529795257180874914u);
 }
 
-TEST_CASE("a mesh is closed if every side of its triangles has a neighbour, slivers without area aside") {
-  const auto is_closed = [](const PolygonMesh& mesh) {
+TEST_CASE("a mesh is a body's surface if it is closed, but for holes that are small beside each of its parts") {
+  const auto is_body = [](const PolygonMesh& mesh) {
     const auto built = ContactMesh::build(mesh);
     REQUIRE(built.has_value());
-    return built->is_closed();
+    return built->is_body();
   };
-  PolygonMesh ball = make_icosphere(0.040, 1);
+  PolygonMesh ball = make_icosphere(0.040, 2);
   ball.normals.clear();
   ball.corner_normal.clear();
-  CHECK(is_closed(ball));
-  PolygonMesh open = ball;
-  open.face_offsets.pop_back();
-  open.corner_position.resize(open.face_offsets.back());
-  CHECK_FALSE(is_closed(open));
-  ball.add_face({0, 1, 1});
-  CHECK(is_closed(ball));
+  const auto ball_less = [&](const auto& is_out) {
+    PolygonMesh rest;
+    rest.positions = ball.positions;
+    for (std::size_t f = 0; f < ball.face_count(); ++f) {
+      const auto corners = ball.face(f);
+      const Vec3 sum = ball.positions[corners[0]] + ball.positions[corners[1]] + ball.positions[corners[2]];
+      if (!is_out(f, sum / 3.0)) rest.add_face({corners[0], corners[1], corners[2]});
+    }
+    return rest;
+  };
+  const auto none = [](std::size_t, const Vec3&) { return false; };
+  CHECK(is_body(ball));
+  PolygonMesh with_sliver = ball_less(none);
+  with_sliver.add_face({0, 1, 1});
+  CHECK(is_body(with_sliver));
+  // 320 faces. Single ones out here and there, each 0.5 of 100 taken as a circle; a cap; half of it.
+  CHECK(is_body(ball_less([](std::size_t f, const Vec3&) { return f % 32 == 0; })));
+  CHECK_FALSE(is_body(ball_less([](std::size_t f, const Vec3&) { return f % 8 == 0; })));
+  CHECK(is_body(ball_less([](std::size_t, const Vec3& at) { return at.z > 0.035; })));
+  CHECK_FALSE(is_body(ball_less([](std::size_t, const Vec3& at) { return at.z > 0.0; })));
+  // A small sheet beside a large body is none, whatever its share of the whole.
+  PolygonMesh with_sheet = ball_less(none);
+  const auto first = static_cast<std::uint32_t>(with_sheet.positions.size());
+  for (const Vec3& p : {Vec3(0.1, 0, 0), Vec3(0.101, 0, 0), Vec3(0.1, 0.001, 0)}) with_sheet.positions.push_back(p);
+  with_sheet.add_face({first, first + 1, first + 2});
+  CHECK_FALSE(is_body(with_sheet));
 }
 
 TEST_CASE("a mesh knows its inner edges from its outer ones, and whether it has any") {
