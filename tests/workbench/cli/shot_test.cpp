@@ -7,6 +7,10 @@
 
 #include <doctest/doctest.h>
 
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
 using namespace tangent;
 using namespace tangent::testing;
 
@@ -59,6 +63,21 @@ TEST_CASE("shot writes a picture of the size asked for, the same every time") {
   CHECK(big_endian(picture, 16) == 320);
   CHECK(big_endian(picture, 20) == 200);
   CHECK(picture == read_text(folder.file("b.png")));
+}
+
+TEST_CASE("pictures of all views go into a folder that is made, and a file in its place is named") {
+  if (no_gl()) return;
+  const TempFolder folder;
+  const std::string taken = folder.write("taken", "not a folder\n");
+  const ProcessResult refused = run_workbench({"shot", "--view", "all", "--out", taken});
+  CHECK(refused.exit_code == 1);
+  CHECK(contains(refused.err, "taken: this folder can't be made"));
+  const std::string pictures = folder.file("new/pictures"), first = pictures + "/overview.png";
+  const Process shot({"shot", "--view", "all", "--out", pictures, "--width", "64", "--height", "64"});
+  while (!std::filesystem::exists(first) && !shot.ended()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  shot.interrupt();  // the others take minutes
+  CHECK_FALSE(contains(shot.wait().err, "cannot create"));
+  CHECK(std::filesystem::exists(first));
 }
 
 TEST_CASE("shot leaves out the ground where asked to, of the scene alone, and its picture says where it comes from") {

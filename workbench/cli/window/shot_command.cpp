@@ -45,6 +45,13 @@ Status write_shot(const ShotRequest& request, const std::filesystem::path& file)
   return {};
 }
 
+Status make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!error && std::filesystem::is_directory(folder)) return {};
+  return fail("this folder can't be made", folder.string(), "name another with --out");
+}
+
 int run_shot(const ShotOptions& options) {
   if (options.request.view.empty() && options.request.script.empty()) {
     print_message("shot", "say with --view what to draw, or with --script what to do (see workbench shot --help)");
@@ -84,6 +91,10 @@ int run_shot(const ShotOptions& options) {
     if (!done) print_message("shot", done.error().message());
     return done ? kDone : kFailed;
   }
+  if (const Status made = all ? make_folder(options.file) : Status(); !made) {
+    print_message("shot", made.error().message());
+    return kFailed;
+  }
   for (const ShotView& view : views) {
     if (!all && view.name != request.view) continue;
     ShotRequest one = request;
@@ -106,7 +117,8 @@ void add_shot_command(CLI::App& app, CommandResult& result) {
   add_text_option(*command, "--view", request->view, "Name of the view; list: names them all; all: every one", "NAME");
   add_text_option(*command, "--script", request->script,
                   "Commands to run in the window first, one a line (gui --commands lists them)", "F");
-  add_text_option(*command, "--out", options->file, "File to write; with --view all: a directory", "F.png");
+  add_text_option(*command, "--out", options->file, "File to write; with --view all: a folder, made if it isn't there",
+                  "F.png");
   add_text_option(*command, "--preset", request->preset,
                   "Preset of the window's views (default: the program's own values)", "F.toml");
   add_number_option(*command, "--width", {.min = 64, .max = 8192, .unit = "pixels", .whole = true},
