@@ -84,12 +84,12 @@ TEST_CASE("shot leaves out the ground where asked to, of the scene alone, and it
   CHECK(run_workbench({"shot", "--view", "overview", "--transparent", "--out", "a.png"}).exit_code == 2);
   if (no_gl()) return;
   const TempFolder folder;
-  const ProcessResult done = run_workbench({"shot", "torus", "--view", "cone", "--transparent", "--out",
+  const ProcessResult done = run_workbench({"shot", "torus", "--view", "normals", "--transparent", "--out",
                                             folder.file("a.png"), "--width", "160", "--height", "120"});
   CHECK(done.exit_code == 0);
   const std::string picture = read_text(folder.file("a.png"));
   CHECK(picture[25] == 6);  // colour and alpha
-  for (const char* words : {"torus, ", "workbench shot torus --view cone --width 160", "Tangent Workbench "})
+  for (const char* words : {"torus, ", "workbench shot torus --view normals --width 160", "Tangent Workbench "})
     CHECK(contains(picture, words));
 }
 
@@ -168,6 +168,25 @@ TEST_CASE("a script makes pictures without a display, and a line of it that fail
   CHECK(run_workbench({"shot", "--script", folder.file("none.txt")}).exit_code == 1);
   CHECK(run_workbench({"shot", "--out", folder.file("no.png")}).exit_code == 2);
   CHECK(run_workbench({"shot", "--view", "cone", "--script", script}).exit_code == 2);
+}
+
+TEST_CASE("shot says what a view takes where it would draw something else than the mesh or polygon given") {
+  const TempFolder folder;
+  const std::string mesh = folder.write("sheet.obj", "v 0 0 0\nv 40 0 0\nv 40 40 0\nf 1 2 3\n");
+  const std::string outline = folder.write("outline.csv", "x_m,y_m\n0,0\n0.04,0\n0.04,0.04\n0,0\n");
+  const auto refused = [&](const std::string& given, const std::string& view) {
+    const ProcessResult done = run_workbench({"shot", given, "--view", view, "--out", folder.file("a.png")});
+    CHECK(done.exit_code == 2);
+    CHECK(contains(done.err, "the view " + view + " draws "));
+    return done.err;
+  };
+  CHECK(contains(refused(mesh, "planar"), "sheet.obj: the view planar draws a polygon, and this is none"));
+  CHECK(contains(refused(mesh, "cone"), "the paper's cone, edges rounded by 1.5 mm, and no mesh"));
+  CHECK(contains(refused("torus", "sphere"), "the paper's sphere, and no mesh"));
+  CHECK(contains(refused(mesh, "experiment-guide"), "and no mesh; leave the mesh out"));
+  for (const char* view : {"planes", "facets", "control-net"})
+    CHECK(contains(refused(outline, view), "a mesh, and this is a polygon"));
+  CHECK(folder.entry_count() == 2);
 }
 
 TEST_CASE("gui lists the window's commands without a display") {

@@ -86,6 +86,10 @@ int run_shot(const ShotOptions& options) {
     print_message("shot", "say with --out where the picture goes (see workbench shot --help)");
     return kUsage;
   }
+  if (const Status ok = check_shot_mesh(request); !ok) {
+    print_message("shot", ok.error().message());
+    return kUsage;
+  }
   if (plain || !request.script.empty()) {
     const Status done = write_shot(request, options.file);
     if (!done) print_message("shot", done.error().message());
@@ -99,6 +103,7 @@ int run_shot(const ShotOptions& options) {
     if (!all && view.name != request.view) continue;
     ShotRequest one = request;
     one.view = view.name;
+    if (all && !check_shot_mesh(one)) one.mesh.clear();
     const Status done = write_shot(one, all ? options.file / (view.name + ".png") : options.file);
     if (done) continue;
     print_message("shot", done.error().message());

@@ -218,7 +218,7 @@ Result<Image> draw_participant(OffscreenScreen& offscreen, StagedExperiment& sta
 const std::vector<ShotView>& experiment_shot_views() {
   static const std::vector<ShotView> kNamed = [] {
     std::vector<ShotView> views;
-    for (const ExperimentView& view : kExperimentViews) views.push_back({view.name, view.shows});
+    for (const ExperimentView& view : kExperimentViews) views.push_back({view.name, view.shows, ShotTakes::nothing});
     return views;
   }();
   return kNamed;

@@ -22,6 +22,7 @@ struct SceneView {
   SceneToggles toggles;
   enum class Aim { whole, contact, planes } aim = Aim::whole;
   double yaw_rad = -0.6, pitch_rad = 0.45;
+  bool own_object = false;  ///< named after the object, so that no other is drawn
 };
 
 SceneToggles object_toggles() {
@@ -37,6 +38,7 @@ SceneView object_view(const char* name, const char* shows, Vec3 approach) {
   SceneView view{name, shows, name, 1.5e-3, {}, object_toggles()};
   view.staging.approach = approach;
   view.staging.preset.finger.radius_m = 0.010;
+  view.own_object = true;
   return view;
 }
 
@@ -172,7 +174,8 @@ double scale_of(const ShotRequest& request) { return request.scale.value_or(std:
 const std::vector<ShotView>& scene_shot_views() {
   static const std::vector<ShotView> kViews = [] {
     std::vector<ShotView> views;
-    for (const SceneView& view : all_views()) views.push_back({view.name, view.shows});
+    for (const SceneView& view : all_views())
+      views.push_back({view.name, view.shows, view.own_object ? ShotTakes::nothing : ShotTakes::mesh});
     return views;
   }();
   return kViews;

@@ -1,6 +1,7 @@
 #include "workbench/gui/platform/shots.h"
 
 #include "core/base/text.h"
+#include "core/io/polygon_io.h"
 #include "workbench/gui/platform/experiment_shots.h"
 #include "workbench/gui/platform/scene_shots.h"
 #include "workbench/gui/platform/window_shots.h"
@@ -37,6 +38,25 @@ bool has(const std::vector<ShotView>& views, std::string_view name) {
 
 bool is_scene_view(std::string_view view) { return has(scene_shot_views(), view); }
 bool is_window_view(std::string_view view) { return has(window_shot_views(), view); }
+
+Status check_shot_mesh(const ShotRequest& request) {
+  const std::vector<ShotView>& views = shot_views();
+  const auto view = std::find_if(views.begin(), views.end(), [&](const ShotView& v) { return v.name == request.view; });
+  if (request.mesh.empty() || view == views.end() || view->takes == ShotTakes::mesh_or_polygon) return {};
+  const std::string draws = "the view " + view->name + " draws ";
+  if (view->takes == ShotTakes::nothing)
+    return fail(draws + view->shows + ", and no mesh", request.mesh,
+                is_scene_view(view->name) ? "leave the mesh out, or draw it with the view both-surfaces"
+                                          : "leave the mesh out");
+  const bool polygon = is_planar_file(request.mesh);
+  if (view->takes == ShotTakes::polygon && !polygon)
+    return fail(draws + "a polygon, and this is none", request.mesh,
+                "give a .csv of x_m,y_m or an .obj with a line element, or leave it out");
+  if (view->takes == ShotTakes::mesh && polygon)
+    return fail(draws + "a mesh, and this is a polygon", request.mesh,
+                "give a .obj with faces, .ply, .stl or .off, or draw the polygon with the view planar");
+  return {};
+}
 
 std::string shot_command(const ShotRequest& request, double scale, Theme theme) {
   std::string text = "workbench shot";
@@ -75,6 +95,7 @@ Result<Shot> take_shot(const ShotRequest& request) {
   const bool of_window = request.view.empty() || has(window_shot_views(), request.view);
   if ((of_window || of_experiment) && request.transparent)
     return fail("the window has no transparent ground", "--transparent", "choose a view of the scene (--view list)");
+  if (Status ok = check_shot_mesh(request); !ok) return tl::unexpected(ok.error());
   if (of_window) return take_window_shot(request);
   if (of_experiment) return take_experiment_shot(request);
   if (is_scene_view(request.view)) return take_scene_shot(request);

@@ -7,6 +7,7 @@
 #include "workbench/gui/render/image.h"
 #include "workbench/gui/theme/palette.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -15,9 +16,13 @@
 
 namespace tangent {
 
+/// What may be given to a view as its MESH.
+enum class ShotTakes : std::uint8_t { mesh_or_polygon, mesh, polygon, nothing };
+
 struct ShotView {
   std::string name;
   std::string shows;  ///< one line
+  ShotTakes takes = ShotTakes::mesh_or_polygon;
 };
 const std::vector<ShotView>& shot_views();
 /// Names for messages: "overview light iterations ...".
@@ -44,6 +49,9 @@ struct Shot {
 
 /// Whether this view is one of the scene, not of the window.
 bool is_scene_view(std::string_view view);
+/// Fails where the view would not draw the mesh or polygon of the request; the error says what the view takes. Of an
+/// unknown view, or without a mesh, there is nothing to say.
+Status check_shot_mesh(const ShotRequest& request);
 /// Whether this view is one of the window, in which a script can run.
 bool is_window_view(std::string_view view);
 /// The command that takes this shot, all defaults said, without the file that it goes to.

@@ -466,7 +466,10 @@ Status check_start(const AppModel& model) {
 const std::vector<ShotView>& window_shot_views() {
   static const std::vector<ShotView> kNamed = [] {
     std::vector<ShotView> views;
-    for (const WindowView& view : kViews) views.push_back({view.name, view.shows});
+    for (const WindowView& view : kViews) {
+      const bool planar = view.arrange == open_outline;
+      views.push_back({view.name, view.shows, planar ? ShotTakes::polygon : ShotTakes::mesh_or_polygon});
+    }
     return views;
   }();
   return kNamed;

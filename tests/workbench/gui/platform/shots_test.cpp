@@ -78,13 +78,14 @@ TEST_CASE("a transparent picture has nothing in its corners, all of the body in 
 TEST_CASE("a shot knows its mesh, and its command says every choice") {
   if (no_gl()) return;
   ShotRequest request = cone(200, 144);
+  request.view = "normals";
   request.mesh = "torus";
   request.transparent = request.y_up = true;
   const Result<Shot> shot = take_shot(request);
   REQUIRE(shot);
   CHECK(shot->origin.mesh.find("torus, ") == 0);
   CHECK(shot->origin.command ==
-        "workbench shot torus --view cone --width 200 --height 144 --scale 1 --theme light --up y --transparent");
+        "workbench shot torus --view normals --width 200 --height 144 --scale 1 --theme light --up y --transparent");
 }
 
 TEST_CASE("the window has no transparent ground, and says so") {
