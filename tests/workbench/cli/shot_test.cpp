@@ -189,6 +189,21 @@ TEST_CASE("shot says what a view takes where it would draw something else than t
   CHECK(folder.entry_count() == 2);
 }
 
+TEST_CASE("a picture's name ends in .png, or shot refuses it") {
+  const TempFolder folder;
+  for (const char* name : {"x.jpg", "x", "x.png.svg"}) {
+    const ProcessResult done = run_workbench({"shot", "--view", "cone", "--out", folder.file(name)});
+    CHECK(done.exit_code == 2);
+    CHECK(contains(done.err, std::string(name) + " names no format that is written; end it in .png"));
+  }
+  CHECK(folder.entry_count() == 0);
+  if (no_gl()) return;
+  CHECK(run_workbench({"shot", "--view", "cone", "--width", "64", "--height", "64", "--out", folder.file("a.PNG")})
+            .exit_code == 0);
+  CHECK(run_workbench({"shot", "--view", "cone", "--width", "64", "--height", "64", "--out", "/dev/null"}).exit_code ==
+        0);
+}
+
 TEST_CASE("gui lists the window's commands without a display") {
   const ProcessResult list = run_workbench({"gui", "--commands"});
   CHECK(list.exit_code == 0);

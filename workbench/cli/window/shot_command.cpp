@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdio>
 #include <memory>
 
@@ -43,6 +44,15 @@ Status write_shot(const ShotRequest& request, const std::filesystem::path& file)
   const char* const what = request.view.empty() ? "window" : request.view.c_str();
   std::fputs(format("%s: %s, %s\n", file.c_str(), what, size.c_str()).c_str(), stdout);
   return {};
+}
+
+/// Whether the name says a PNG; a device or a pipe needs none.
+bool is_png_name(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error)) return true;
+  std::string ending = file.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending == ".png";
 }
 
 Status make_folder(const std::filesystem::path& folder) {
@@ -84,6 +94,10 @@ int run_shot(const ShotOptions& options) {
   }
   if (options.file.empty() && request.script.empty()) {
     print_message("shot", "say with --out where the picture goes (see workbench shot --help)");
+    return kUsage;
+  }
+  if (!all && !options.file.empty() && !is_png_name(options.file)) {
+    print_message("shot", "--out: " + options.file.string() + " names no format that is written; end it in .png");
     return kUsage;
   }
   if (const Status ok = check_shot_mesh(request); !ok) {
