@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <thread>
 
@@ -77,6 +78,19 @@ TEST_CASE("pictures of all views go into a folder that is made, and a file in it
   while (!std::filesystem::exists(first) && !shot.ended()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   shot.interrupt();  // the others take minutes
   CHECK_FALSE(contains(shot.wait().err, "cannot create"));
+  CHECK(std::filesystem::exists(first));
+}
+
+TEST_CASE("shot ends on SIGTERM with code 1 and keeps the pictures that are drawn") {
+  if (no_gl()) return;
+  const TempFolder folder;
+  const std::string first = folder.file("pictures/overview.png");
+  const Process shot({"shot", "--view", "all", "--out", folder.file("pictures"), "--width", "64", "--height", "64"});
+  while (!std::filesystem::exists(first) && !shot.ended()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  shot.interrupt(SIGTERM);
+  const ProcessResult ended = shot.wait();
+  CHECK(ended.exit_code == 1);
+  CHECK(contains(ended.err, "interrupted; " + folder.file("pictures") + " holds "));
   CHECK(std::filesystem::exists(first));
 }
 

@@ -1,6 +1,8 @@
 // workbench shot: any view as a PNG, with no display.
 #include "core/io/replaceable_file.h"
 #include "workbench/cli/command.h"
+#include "workbench/cli/count_text.h"
+#include "workbench/cli/interrupt.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"
 #include "workbench/cli/option.h"
@@ -62,11 +64,47 @@ Status make_folder(const std::filesystem::path& folder) {
   return fail("this folder can't be made", folder.string(), "name another with --out");
 }
 
-int run_shot(const ShotOptions& options) {
-  if (options.request.view.empty() && options.request.script.empty()) {
-    print_message("shot", "say with --view what to draw, or with --script what to do (see workbench shot --help)");
-    return kUsage;
+/// Wrong usage, in words; empty: none.
+std::string usage_error(const ShotRequest& request, const std::filesystem::path& file) {
+  const auto& views = shot_views();
+  const bool all = request.view == "all";
+  const auto is_named = [&](const ShotView& v) { return v.name == request.view; };
+  const bool known = std::any_of(views.begin(), views.end(), is_named);
+  if (request.view.empty() && request.script.empty())
+    return "say with --view what to draw, or with --script what to do (see workbench shot --help)";
+  if (!request.script.empty() && (all || (known && !is_window_view(request.view))))
+    return "--script needs a view of the window, not \"" + request.view + "\"; leave --view out";
+  if (!all && !request.view.empty() && !known)
+    return "there is no view \"" + request.view + "\"; choose one of: " + shot_view_names() + " (or list, all)";
+  if (request.transparent && (all || !is_scene_view(request.view)))
+    return "the window has no transparent ground; choose a view of the scene (--view list)";
+  if (file.empty() && request.script.empty())
+    return "say with --out where the picture goes (see workbench shot --help)";
+  if (!all && !file.empty() && !is_png_name(file))
+    return "--out: " + file.string() + " names no format that is written; end it in .png";
+  const Status mesh = check_shot_mesh(request);
+  return mesh ? std::string() : mesh.error().message();
+}
+
+/// Every view that there is; one that does not take the mesh with its own.
+Status write_all(const ShotRequest& request, const std::filesystem::path& folder) {
+  if (Status made = make_folder(folder); !made) return made;
+  std::uint64_t drawn = 0;
+  for (const ShotView& view : shot_views()) {
+    ShotRequest one = request;
+    one.view = view.name;
+    if (!check_shot_mesh(one)) one.mesh.clear();
+    const Status done = write_shot(one, folder / (view.name + ".png"));
+    drawn += done ? 1 : 0;
+    if (InterruptGuard::requested())
+      return fail("interrupted; " + folder.string() + " holds " + count_text(drawn, "picture", "pictures") + " of " +
+                  std::to_string(shot_views().size()));
+    if (!done) return done;
   }
+  return {};
+}
+
+int run_shot(const ShotOptions& options) {
   if (options.request.view == "list") {
     list_views();
     return kDone;
@@ -75,55 +113,15 @@ int run_shot(const ShotOptions& options) {
   request.mesh = options.mesh.file.string();
   request.metres_per_unit = options.mesh.metres_per_unit;
   request.mesh_options = options.mesh.build;
-  const auto& views = shot_views();
-  const bool all = request.view == "all", plain = request.view.empty();
-  const auto is_named = [&](const ShotView& v) { return v.name == request.view; };
-  const bool known = std::any_of(views.begin(), views.end(), is_named);
-  if (!request.script.empty() && (all || (known && !is_window_view(request.view)))) {
-    print_message("shot", "--script needs a view of the window, not \"" + request.view + "\"; leave --view out");
+  if (const std::string wrong = usage_error(request, options.file); !wrong.empty()) {
+    print_message("shot", wrong);
     return kUsage;
   }
-  if (!all && !plain && !known) {
-    print_message("shot",
-                  "there is no view \"" + request.view + "\"; choose one of: " + shot_view_names() + " (or list, all)");
-    return kUsage;
-  }
-  if (request.transparent && (all || !is_scene_view(request.view))) {
-    print_message("shot", "the window has no transparent ground; choose a view of the scene (--view list)");
-    return kUsage;
-  }
-  if (options.file.empty() && request.script.empty()) {
-    print_message("shot", "say with --out where the picture goes (see workbench shot --help)");
-    return kUsage;
-  }
-  if (!all && !options.file.empty() && !is_png_name(options.file)) {
-    print_message("shot", "--out: " + options.file.string() + " names no format that is written; end it in .png");
-    return kUsage;
-  }
-  if (const Status ok = check_shot_mesh(request); !ok) {
-    print_message("shot", ok.error().message());
-    return kUsage;
-  }
-  if (plain || !request.script.empty()) {
-    const Status done = write_shot(request, options.file);
-    if (!done) print_message("shot", done.error().message());
-    return done ? kDone : kFailed;
-  }
-  if (const Status made = all ? make_folder(options.file) : Status(); !made) {
-    print_message("shot", made.error().message());
-    return kFailed;
-  }
-  for (const ShotView& view : views) {
-    if (!all && view.name != request.view) continue;
-    ShotRequest one = request;
-    one.view = view.name;
-    if (all && !check_shot_mesh(one)) one.mesh.clear();
-    const Status done = write_shot(one, all ? options.file / (view.name + ".png") : options.file);
-    if (done) continue;
-    print_message("shot", done.error().message());
-    return kFailed;
-  }
-  return kDone;
+  const InterruptGuard guard;
+  request.stop = [] { return InterruptGuard::requested(); };
+  const Status done = request.view == "all" ? write_all(request, options.file) : write_shot(request, options.file);
+  if (!done) print_message("shot", done.error().message());
+  return done ? kDone : kFailed;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -40,6 +41,7 @@ struct ShotRequest {
   bool y_up = false;            ///< the mesh's up axis is y, as in many scans
   std::optional<Theme> theme;   ///< empty: the view's default
   bool transparent = false;     ///< nothing behind the scene; views of the scene only
+  std::function<bool()> stop;   ///< asked while the window explores or runs a script; true: the shot fails
 };
 
 struct Shot {

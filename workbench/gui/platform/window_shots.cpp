@@ -487,9 +487,13 @@ void save_unannounced(AppModel& model, const PictureRequest& request, const Imag
     messages.dismiss(messages.all().size() - 1);
 }
 
+bool is_stopped(const ShotRequest& request) { return request.stop && request.stop(); }
+tl::unexpected<Error> interrupted() { return fail("interrupted before the picture was drawn"); }
+
 /// Frames until the script is done, with the pictures that it asks for.
-Status run_script(OffscreenScreen& screen, App& app, FrameFeeder& feeder) {
+Status run_script(OffscreenScreen& screen, App& app, FrameFeeder& feeder, const ShotRequest& request) {
   while (app.script_running()) {
+    if (is_stopped(request)) return interrupted();
     feeder.frame();
     if (const auto file = app.take_screenshot_request())
       if (Status written = write_png(screen.picture(), *file, {.origin = file_origin(app.model())}); !written)
@@ -502,14 +506,16 @@ Status run_script(OffscreenScreen& screen, App& app, FrameFeeder& feeder) {
 }
 
 /// Lets the simulated finger explore until the contact is well in view.
-void explore(App& app, FrameFeeder& feeder) {
+Status explore(App& app, FrameFeeder& feeder, const ShotRequest& request) {
   bool seen = false, in_view = false;
   for (std::uint64_t done = 0; explores_on(done, seen, in_view); done += kTicksPerFrame) {
+    if (is_stopped(request)) return interrupted();
     app.advance(kTicksPerFrame);
     feeder.unseen_frame();  // without a renderer: only the plots and panels follow
     in_view = contact_in_view(app.model());
     seen = seen || in_view;
   }
+  return {};
 }
 
 /// The window as it starts, for a script that does the rest.
@@ -531,15 +537,17 @@ Result<Shot> take_window_shot(const ShotRequest& request) {
   feeder.frame();
   if (view.arrange != nullptr) view.arrange(app.model());
   app.show_plots(view.plots, view.values);
-  if (view.look != nullptr) explore(app, feeder);
-  if (view.look != nullptr) view.look(app.model());
+  if (view.look != nullptr) {
+    if (const Status explored = explore(app, feeder, request); !explored) return tl::unexpected(explored.error());
+    view.look(app.model());
+  }
   app.set_renderer(&renderer);
   feeder.frame();
   renderer.wait_for_tessellation();
   if (view.key != 0) feeder.press(view.key, view.ctrl);
   if (!request.script.empty()) {
     app.run_script(request.script);
-    if (const Status done = run_script(**screen, app, feeder); !done) return tl::unexpected(done.error());
+    if (const Status done = run_script(**screen, app, feeder, request); !done) return tl::unexpected(done.error());
   }
   for (int i = 0; i < kLayoutFrames; ++i) feeder.frame();
   FileOrigin origin = file_origin(app.model());
