@@ -4,6 +4,7 @@
 #include "core/io/atomic_file.h"
 #include "core/io/pose_file.h"
 #include "core/io/scene_file.h"
+#include "core/lab/measure/touch_count.h"
 #include "workbench/bench/case_paths.h"
 #include "workbench/bench/speed_curves_report.h"
 #include "workbench/cli/bench_text.h"
@@ -76,9 +77,12 @@ Status run_bench_curves(BenchCurvesOptions options, bool& interrupted) {
   if (Status status = probe_files(options); !status) return status;
   const Result<MotionPart> part = motion_part(options, preset->preset);
   if (!part) return tl::unexpected(part.error());
+  const auto stop = [] { return InterruptGuard::requested(); };
+  const TouchCount touches = count_until_touched(part->scene, preset->preset, part->poses, stop);
+  if (const std::string note = touches.note(); !note.empty() && !stop()) print_message("bench", note);
   const TickClock clock;
   Progress progress("passes", 1);
-  options.curves.stop = [] { return InterruptGuard::requested(); };
+  options.curves.stop = stop;
   options.curves.progress = [&](std::size_t done, std::size_t planned) { progress.update(done, planned); };
   const auto curves = measure_speed_curves(std::span(&*part, 1), clock, options.curves);
   interrupted = InterruptGuard::requested();

@@ -3,6 +3,7 @@
 #include "core/io/pose_file.h"
 #include "core/io/scene_file.h"
 #include "core/io/ticks_file.h"
+#include "core/lab/measure/touch_count.h"
 #include "workbench/cli/command.h"
 #include "workbench/cli/explain_lines.h"
 #include "workbench/cli/interrupt.h"
@@ -25,6 +26,7 @@
 #include <future>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 
 namespace tangent {
@@ -182,6 +184,15 @@ class WaitFor {
   const std::future<std::uint64_t>& result_;
 };
 
+/// Where no tick found a contact: whether there was one to find.
+std::string touch_note(const std::shared_ptr<const ContactScene>& scene, const SolveReport& report,
+                       std::span<const TickInput> poses) {
+  if (report.statistics.touched() || report.interrupted) return {};
+  const auto stop = [] { return InterruptGuard::requested(); };
+  const TouchCount count = count_until_touched(scene, report.preset.preset, poses, stop);
+  return stop() ? std::string() : count.note();
+}
+
 Status solve(const SolveOptions& options, bool& interrupted) {
   SolveReport report;
   const Stopwatch loading;
@@ -232,10 +243,12 @@ Status solve(const SolveOptions& options, bool& interrupted) {
   interrupted = report.interrupted;
   report.solve_seconds = solving.seconds();
   report.scene_bytes = (*scene)->memory_bytes();
+  report.touch_note = touch_note(*scene, report, *poses);
   if (outputs->explanations) report.causes = outputs->explanations->counts();
   if (Status status = commit(*outputs, options, report); !status) return status;
   if (Status status = write_origin(options, report, mesh_hash.valid() ? mesh_hash.get() : 0); !status) return status;
   std::fputs(solve_text(report).c_str(), stdout);
+  if (!report.touch_note.empty()) print_message("solve", report.touch_note);
   if (interrupted) {
     print_message("solve", "interrupted after " + std::to_string(report.statistics.ticks()) + " of " +
                                std::to_string(report.poses) + " poses; " + options.ticks.string() + " holds those");

@@ -94,11 +94,18 @@ std::string scene_name(const SolveReport& report) {
   return report.mesh != nullptr ? report.mesh->name() : report.planar->polygon().name;
 }
 
+/// With the one that goes to standard error.
+std::vector<std::string> all_notes(const SolveReport& report) {
+  std::vector<std::string> all = report.notes();
+  if (!report.touch_note.empty()) all.push_back(report.touch_note);
+  return all;
+}
+
 Json mesh_json(const SolveReport& report) {
   const ContactMesh& mesh = *report.mesh;
   return {{"name", file_name_text(mesh.name())}, {"hash", hash_text(mesh.content_hash())},
           {"triangles", mesh.triangle_count()},  {"usable_triangles", mesh.usable_triangle_count()},
-          {"defects", defects_json(mesh)},       {"notes", report.notes()}};
+          {"defects", defects_json(mesh)},       {"notes", all_notes(report)}};
 }
 
 std::string causes_text(const SolveReport& report) {
@@ -157,7 +164,7 @@ Json solve_json(const SolveReport& report) {
     scene["name"] = scene_name(report);
     scene["vertices"] = report.planar->patch_count();
     scene["closed"] = report.planar->closed();
-    scene["notes"] = report.notes();
+    scene["notes"] = all_notes(report);
   }
   Json out = {
       {"program_version", TANGENT_VERSION},

@@ -30,6 +30,8 @@ struct SolveReport {
   SolveStatistics statistics;
   std::optional<std::array<std::uint64_t, kTickCauses.size()>> causes;  ///< with --explain: how often each was told
 
+  std::string touch_note;  ///< on a motion that touches nothing; empty: it does
+
   std::vector<std::string> notes() const;  ///< on the mesh, and on the finger where it does not fit the mesh
 };
 

@@ -25,6 +25,8 @@ class SolveStatistics {
   Distribution iterations() const { return distribution(iterations_); }
   /// Over the ticks whose event is `none`, that is, tracking only.
   Distribution event_free_iterations() const { return distribution(event_free_iterations_); }
+  /// Whether any tick converged to a contact.
+  bool touched() const { return count(TickStatus::face) + count(TickStatus::edge) + count(TickStatus::vertex) > 0; }
   const Roughness& roughness() const { return roughness_.result(); }
   Distribution solve_ns() const { return distribution(solve_ns_); }
 

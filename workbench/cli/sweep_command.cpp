@@ -44,6 +44,7 @@ sweep::SweepOptions run_options(const SweepCommandOptions& options, Progress& pr
   out.threads = options.threads > 0.0 ? static_cast<unsigned>(options.threads)
                                       : std::max(1u, std::thread::hardware_concurrency());
   out.stop = [] { return InterruptGuard::requested(); };
+  out.note = [](const std::string& note) { print_message("sweep", note); };
   out.progress = [&progress](const sweep::SweepProgress& p) { progress.update(p.done, p.planned); };
   return out;
 }

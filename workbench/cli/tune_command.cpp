@@ -3,6 +3,7 @@
 #include "core/lab/audit/finger_size.h"
 #include "core/lab/gains/gain_tuning.h"
 #include "core/lab/measure/distribution.h"
+#include "core/lab/measure/touch_count.h"
 #include "workbench/cli/command.h"
 #include "workbench/cli/command_text.h"
 #include "workbench/cli/interrupt.h"
@@ -165,6 +166,7 @@ Result<Found> find_on_front(const TuneOptions& options, const std::shared_ptr<co
   TuneGrounds grounds = tune_grounds(options.grounds, options.mesh, preset,
                                      {scene, std::make_shared<const std::vector<TickInput>>(poses)},
                                      std::string(kExplorationNames[static_cast<std::size_t>(options.path)]));
+  for (const std::string& note : grounds.notes) print_message("tune", note);
   for (const std::string& failed : grounds.failed) print_message("tune", failed + "; the others go on");
   for (const std::string& text : tune_ignored(preset, gain_length(*scene, preset.finger), options.front))
     print_message("tune", text);
@@ -197,6 +199,10 @@ Status run_tune(const TuneOptions& options, bool& incomplete) {
   const Result<std::vector<TickInput>> poses = find_poses(options, **scene, report);
   if (!poses) return tl::unexpected(poses.error());
 
+  const TouchCount touches = count_until_touched(*scene, preset, *poses, [] { return InterruptGuard::requested(); });
+  if (std::string note = touches.note(); !note.empty() && !InterruptGuard::requested())
+    return fail(std::move(note), options.grounds.poses.empty() ? std::string() : options.grounds.poses.front(),
+                "no gains can be told apart on such a motion");
   // Before the seconds that it takes, and again in the report.
   if (const std::string note = finger_size_note(longest_side_m(*report.mesh), preset.finger); !note.empty())
     print_message("tune", note);

@@ -2,6 +2,8 @@
 
 #include "core/base/text.h"
 #include "core/io/scene_file.h"
+#include "core/lab/measure/touch_count.h"
+#include "workbench/cli/interrupt.h"
 #include "workbench/cli/option.h"
 #include "workbench/cli/text_format.h"
 #include "workbench/session/two_threads.h"
@@ -72,6 +74,12 @@ TuneGrounds tune_grounds(const TuneGroundOptions& options, const MeshOptions& me
           out.failed.push_back(name + ": " + poses.error().message());
           continue;
         }
+        Preset there = preset;
+        there.finger = finger;
+        const TouchCount touches =
+            count_until_touched(*scene, there, *poses, [] { return InterruptGuard::requested(); });
+        if (const std::string note = touches.note(); !note.empty() && !InterruptGuard::requested())
+          out.notes.push_back(name + ": " + note);
         out.all.push_back(
             ground_over({*scene, std::make_shared<const std::vector<TickInput>>(std::move(*poses))}, name));
         if (radius != preset.finger.radius_m) out.all.back().finger = finger;

@@ -23,6 +23,7 @@ void add_tune_ground_options(CLI::App& app, TuneGroundOptions& options);
 struct TuneGrounds {
   std::vector<sweep::FrontGround> all;  ///< every motion on every mesh under every finger; the first is MESH's
   std::vector<std::string> failed;      ///< why others can't be had
+  std::vector<std::string> notes;       ///< on those, but for the first, of which nothing is touched
 };
 
 /// `first`: MESH and its first motion. The last quarter of every motion is held back.

@@ -2,9 +2,12 @@
 
 #include "core/io/pose_file.h"
 #include "core/io/scene_file.h"
+#include "core/lab/measure/touch_count.h"
 #include "workbench/recording/recording.h"
 #include "workbench/session/exploration_poses.h"
 #include "workbench/session/two_threads.h"
+
+#include <utility>
 
 namespace tangent::sweep {
 
@@ -40,7 +43,18 @@ Result<std::vector<TickInput>> motion_of(const ContactScene& scene, const std::s
   return std::move(explored->poses);
 }
 
-Inputs::Inputs(const Plan& plan) : plan_(plan) {}
+Inputs::Inputs(const Plan& plan, InputWatch watch) : plan_(plan), watch_(std::move(watch)) {}
+
+/// Threads at the border of two motions load each of them again and again: one note is enough.
+void Inputs::look_at(const std::shared_ptr<const ContactScene>& scene, const std::array<std::size_t, 3>& which) {
+  if (!watch_.note || !*motion_ || !looked_at_.insert(which).second) return;
+  Preset preset = plan_.base;
+  preset.finger = plan_.fingers[which[2]];
+  const TouchCount touches = count_until_touched(scene, preset, ***motion_, watch_.stop);
+  if (watch_.stop && watch_.stop()) return;
+  if (const std::string note = touches.note(); !note.empty())
+    watch_.note(plan_.meshes[which[0]].string() + ", " + plan_.poses[which[1]] + ": " + note);
+}
 
 Inputs::Scene Inputs::scene(std::size_t mesh) {
   if (scene_ == nullptr || scene_of_ != mesh) {
@@ -72,6 +86,7 @@ Result<Ground> Inputs::ground(std::size_t mesh, std::size_t poses, std::size_t f
   if (motion_ == nullptr || motion_of_ != wanted) {
     motion_ = std::make_unique<const Motion>(load_motion(**on, poses, finger));
     motion_of_ = wanted;
+    look_at(*on, wanted);
   }
   if (!*motion_) return tl::unexpected(motion_->error());
   return Ground{*on, **motion_};

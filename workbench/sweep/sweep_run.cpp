@@ -71,7 +71,7 @@ Status check_shard(const PlanFolder& folder, std::uint64_t shard) {
 Result<SweepOutcome> run_sweep(const Cells& cells, ResultsFile& file, const SweepOptions& options) {
   const std::vector<bool> before = file.done();
   Tally tally(cells.size(), count(before), options);
-  Inputs inputs(cells.plan());
+  Inputs inputs(cells.plan(), {options.note, options.stop});
   const auto keep = [&](const CellResult& result) -> Status {
     if (Status ok = file.add(result); !ok) return ok;
     return tally.add(result) ? file.commit() : Status{};
@@ -133,7 +133,7 @@ Result<SweepOutcome> run_shard(const PlanFolder& folder, std::uint64_t shard, co
   Result<ShardWriter> file = ShardWriter::open(folder.shard_file(shard), name);
   if (!file) return tl::unexpected(file.error());
   Tally tally(name.end - name.first, count(file->done()), options);
-  Inputs inputs(folder.plan);
+  Inputs inputs(folder.plan, {options.note, options.stop});
   const auto keep = [&](const CellResult& result) -> Status {
     if (Status ok = file->add(result); !ok) return ok;
     return tally.add(result) ? file->flush() : Status{};

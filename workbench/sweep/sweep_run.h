@@ -15,6 +15,7 @@ struct SweepOptions {
   unsigned threads = 1;
   std::function<bool()> stop = [] { return false; };                  ///< asked by any thread
   std::function<void(const SweepProgress&)> progress = [](auto&) {};  ///< called by one thread at a time
+  std::function<void(const std::string&)> note = {};                  ///< likewise; on a motion that touches nothing
 };
 
 struct SweepOutcome {

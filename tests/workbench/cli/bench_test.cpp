@@ -141,6 +141,18 @@ TEST_CASE("bench --mesh measures curves on a mesh and motion of one's own, with 
   CHECK_FALSE(contains(explored.out, "embree"));
 }
 
+TEST_CASE("bench --mesh remarks on a motion that touches nothing") {
+  const TempFolder folder;
+  const std::string mesh = folder.file("ball.obj");
+  REQUIRE(run_workbench({"make", "icosphere", "--out", mesh}).exit_code == 0);
+  const std::string poses = folder.write("mm.csv", "t_s,x_m,y_m,z_m\n0,59,0,0\n0.001,59,0,1\n");
+  const ProcessResult done = run_workbench({"bench", "--mesh", mesh, "--poses", poses, "--methods", "robust",
+                                            "--no-peers", "--rounds", "1", "--seconds", "0"});
+  CHECK(done.exit_code == 0);
+  CHECK(
+      contains(done.err, "workbench bench: the finger touched nothing in 2 of 2 ticks; the nearest it came was 58.9"));
+}
+
 TEST_CASE("bench --mesh refuses what makes no sense") {
   const TempFolder folder;
   const std::string mesh = folder.file("ball.obj");

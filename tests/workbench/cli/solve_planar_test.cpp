@@ -40,6 +40,14 @@ std::vector<std::string> fields_of(const std::string& text, int row) {
 
 }  // namespace
 
+TEST_CASE("poses that touch nothing of a polygon are remarked on") {
+  const Scene scene;
+  scene.folder.write("poses.csv", "t_s,x_m,y_m,z_m\n0,0,0.08,0\n0.001,0,0.08,0\n");
+  const ProcessResult out = scene.solve({});
+  CHECK(out.exit_code == 0);
+  CHECK(contains(out.err, "the finger touched nothing in 2 of 2 ticks; the nearest it came was 22.5 mm"));
+}
+
 TEST_CASE("solve takes a CSV polygon as it takes a mesh, with every method, and records its iterations") {
   const Scene scene;
   for (const char* method : {"paper", "newton", "robust", "facet", "force-shading", "two-pass"}) {

@@ -253,6 +253,27 @@ TEST_CASE("a finger a thousand times larger than the mesh is solved for and rema
   CHECK(scene.summary()["ticks"] == 50);
 }
 
+TEST_CASE("poses that touch nothing are solved for and remarked on, with how near they came and what to check") {
+  const SolveScene scene(50);
+  std::string text = "t_s,x_m,y_m,z_m\n";
+  for (int i = 0; i < 50; ++i) text += std::to_string(0.001 * i) + ",59," + std::to_string(0.1 * i) + ",3\n";  // in mm
+  const ProcessResult result =
+      run_workbench({"solve", scene.mesh, "--poses", scene.folder.write("mm.csv", text), "--out",
+                     scene.folder.file("ticks.csv"), "--summary", scene.folder.file("summary.json")});
+  CHECK(result.exit_code == 0);
+  CHECK(
+      contains(result.err, "workbench solve: the finger touched nothing in 50 of 50 ticks; the nearest it came was 5"));
+  CHECK(contains(result.err, " m: check the units, metres of the poses and --unit of the mesh"));
+  REQUIRE(scene.summary()["mesh"]["notes"].size() == 1);
+  CHECK(contains(scene.summary()["mesh"]["notes"][0].get<std::string>(), "touched nothing"));
+  // By a method that does not converge so far off, too, and not of a motion that touches while no tick converges.
+  const ProcessResult paper = run_workbench({"solve", scene.mesh, "--poses", scene.folder.file("mm.csv"), "--method",
+                                             "paper", "--out", scene.folder.file("ticks.csv")});
+  CHECK(contains(paper.err, "touched nothing in 50 of 50 ticks"));
+  const ProcessResult lost = scene.solve({"--method", "paper", "--max-iterations", "1", "--gain-overall", "0.1"});
+  CHECK_FALSE(contains(lost.err, "touched nothing"));
+}
+
 TEST_CASE("an output that can't be written is named before any work and nothing is left") {
   const SolveScene scene(5);
   const std::size_t before = scene.folder.entry_count();

@@ -46,6 +46,18 @@ struct Sweep {
   }
 };
 
+TEST_CASE("sweep: a motion that touches nothing is remarked on once, by its mesh and its name") {
+  const Sweep sweep;
+  const std::string far = sweep.folder.write("far.csv", "t_s,x_m,y_m,z_m\n0,59,0,0\n0.001,59,0,1\n");
+  const ProcessResult done =
+      sweep.run({sweep.file("cube.obj"), "--poses", far, "--poses", "around", "--ticks", "50", "--range",
+                 "solver.gain_curvature_m=0.01,0.02", "--out", sweep.file("out.sqlite")});
+  CHECK(done.exit_code == 0);
+  const std::string note = "cube.obj, " + far + ": the finger touched nothing in 2 of 2 ticks";
+  CHECK(contains(done.err, note));
+  CHECK(done.err.find("touched nothing") == done.err.rfind("touched nothing"));
+}
+
 TEST_CASE("sweep: shards that are killed and run again give what one process gives") {
   const Sweep sweep;
   REQUIRE(sweep.run({"--plan", sweep.file("plan.toml"), "--out", sweep.file("one.sqlite")}).exit_code == 0);

@@ -78,6 +78,7 @@ TEST_CASE("tune over several meshes, motions and fingers says each, and goes on 
                                       "--constraint", "not_finite = 0", "--seed", "3"});
   CHECK_MESSAGE(tuned.exit_code == 0, tuned.err);
   CHECK(contains(tuned.out, "4 grounds, an objective is the worst of them"));
+  CHECK(contains(tuned.err, "torus.obj, poses.csv, finger 8 mm: the finger touched nothing in 400 of 400 ticks"));
   CHECK(contains(tuned.out, "ball.obj, poses.csv, finger 8 mm: 400 ticks, 100 of them held back"));
   CHECK(contains(tuned.out, "Theory beside what was found"));
   CHECK(run_workbench({"check", t.preset}).exit_code == 0);

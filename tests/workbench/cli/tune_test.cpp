@@ -115,6 +115,20 @@ PresetFile check_claims(const std::string& name, const std::string& object) {
 
 }  // namespace
 
+TEST_CASE("a motion that touches nothing is refused, since nothing can be tuned on it") {
+  const TuneFolder folder;
+  const std::string poses = folder.folder.write("mm.csv", "t_s,x_m,y_m,z_m\n0,59,0,0\n0.001,59,0,1\n");
+  for (const bool front : {false, true}) {
+    std::vector<std::string> options{"--poses", poses};
+    if (front) options.insert(options.end(), {"--objective", "mean_iterations"});
+    const ProcessResult done = folder.tune(options);
+    CHECK(done.exit_code == 1);
+    CHECK(contains(done.err, "mm.csv: the finger touched nothing in 2 of 2 ticks; the nearest it came was 58.9"));
+    CHECK(contains(done.err, "no gains can be told apart on such a motion"));
+    CHECK_FALSE(std::filesystem::exists(folder.preset));
+  }
+}
+
 TEST_CASE("a tuning writes a preset that says what it measured and with which command") {
   const TuneFolder t;
   const std::string poses = t.poses();
