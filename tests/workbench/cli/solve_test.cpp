@@ -253,6 +253,13 @@ TEST_CASE("a finger a thousand times larger than the mesh is solved for and rema
   CHECK(scene.summary()["ticks"] == 50);
 }
 
+TEST_CASE("a mesh a thousand times larger than the finger is solved for and remarked on") {
+  const SolveScene scene(5);
+  const ProcessResult result = scene.solve({"--unit", "m"});
+  CHECK(result.exit_code == 0);
+  CHECK(contains(result.out, "note: the mesh is 8e+04 mm long, 4000 times the finger's reach of 20 mm: check --unit"));
+}
+
 TEST_CASE("poses that touch nothing are solved for and remarked on, with how near they came and what to check") {
   const SolveScene scene(50);
   std::string text = "t_s,x_m,y_m,z_m\n";

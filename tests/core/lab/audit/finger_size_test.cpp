@@ -7,7 +7,7 @@ using namespace tangent;
 using namespace tangent::test;
 using tangent::testing::contains;
 
-TEST_CASE("a finger a thousand times larger than the mesh is remarked on with both sizes, a plausible one is not") {
+TEST_CASE("a finger a thousand times larger or smaller than the mesh is remarked on, a plausible one is not") {
   const auto mesh = ContactMesh::build(height_field(0.01, 2, [](double, double) { return 0.0; }));
   REQUIRE(mesh);
   const auto note = [&](double radius_m) {
@@ -17,7 +17,9 @@ TEST_CASE("a finger a thousand times larger than the mesh is remarked on with bo
   CHECK(note(0.02).empty());
   CHECK(note(0.02 * kFingerToMesh).empty());
   CHECK_FALSE(note(0.0201 * kFingerToMesh).empty());
-  CHECK(note(0.0).empty());
+  CHECK(note(0.0).empty());  // a point
+  CHECK(note(0.02 / kMeshToFinger).empty());
+  CHECK(contains(note(20e-6), "the mesh is 20 mm long, 1000 times the finger's reach of 0.02 mm: check --unit"));
 }
 
 TEST_CASE("the note counts how far a finger of any shape reaches") {
