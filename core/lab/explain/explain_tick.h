@@ -57,7 +57,8 @@ struct TickExplanation {
   DecidingNumber decided;
   TickCure cure;
   MeshPlace mesh;
-  int solves = 0;  ///< ticks solved to find out
+  bool untouched = false;  ///< unstable_ground: the finger does not reach the surface
+  int solves = 0;          ///< ticks solved to find out
   /// Of a tick that followed others without a contact (explain_run.h): how many there were before it. Cause, number and
   /// place are then those of the first, and the cure is solved again from there on. 0: all is of the tick itself.
   std::uint64_t lost_before = 0;
@@ -73,6 +74,9 @@ bool normal_jumped(const TickOutput& last, const TickOutput& tick);
 /// `before`: the state that the tick was given. Deterministic. Precondition: preset within its ranges.
 TickExplanation explain_tick(const std::shared_ptr<const ContactScene>& scene, const Preset& preset,
                              const TickInput& input, const TickState& before, const ExplainOptions& options = {});
+
+/// What the cause's sentence is for this tick, without a full stop.
+const char* sentence_of(const TickExplanation& explanation);
 
 /// Some sentences for a person: the cause, what decided it, the cure, the defect to mend. No line end.
 std::string explanation_text(const TickExplanation& explanation);

@@ -59,12 +59,19 @@ std::string cure_text(const TickCure& cure, bool from_first) {
 
 }  // namespace
 
+const char* sentence_of(const TickExplanation& e) {
+  if (e.cause == TickCause::unstable_ground && e.untouched)
+    return "Unstable ground: the finger touches nothing, and its centre is so far from a hollow that no one place is "
+           "nearest";
+  return sentence_of(e.cause);
+}
+
 std::string explanation_text(const TickExplanation& e) {
   std::string text;
   if (e.lost_before > 0)
     text = "The contact was lost " + std::to_string(e.lost_before) +
            (e.lost_before == 1 ? " tick before" : " ticks before") + ", and not found since. What lost it: ";
-  text += sentence_of(e.cause);
+  text += sentence_of(e);
   if (e.decided.what) text += ": " + decided_text(e.decided);
   text += ".";
   if (e.mesh.triangle != kNone) text += place_text(e);

@@ -85,6 +85,14 @@ TickCure robust_instead(TickStudy& study) {
   return cure;
 }
 
+/// By the raw mesh where the tick itself does not know: the planes of an iteration that fails may lie anywhere.
+bool is_untouched(TickStudy& study) {
+  if (is_converged(study.tick().status)) return study.tick().status == TickStatus::free;
+  Preset raw = study.preset();
+  raw.solver.method = Method::facet;
+  return study.trials.solve(raw).status == TickStatus::free;
+}
+
 }  // namespace
 
 bool find_limit(TickStudy& study) {
@@ -136,7 +144,9 @@ bool find_unstable(TickStudy& study) {
   study.result.decided = {"distance of the finger's centre from the contact", "radius of the hollow", "m", std::abs(h),
                           std::abs(h / (1.0 - least))};
   study.place_at(at->triangle, 0, at->point);
-  study.result.cure = smaller_finger(study, at->normal);
+  // A finger in the air renders nothing that a smaller one would render better.
+  study.result.untouched = is_untouched(study);
+  if (!study.result.untouched) study.result.cure = smaller_finger(study, at->normal);
   return true;
 }
 

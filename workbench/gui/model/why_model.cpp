@@ -96,8 +96,9 @@ void WhyModel::take_answer() {
 const TickCure* WhyModel::cure() {
   const Why* why = of_tick_in_view();
   if (why != nullptr && why->told.cure.outcome == CureOutcome::found) return &why->told.cure;
-  messages_.refuse(why == nullptr ? "pause on a tick first, and wait for its cause"
-                                  : "no value of a parameter cures this tick");
+  messages_.refuse(why == nullptr                          ? "pause on a tick first, and wait for its cause"
+                   : why->told.cause == TickCause::nothing ? "nothing is wrong with this tick"
+                                                           : "no value of a parameter cures this tick");
   return nullptr;
 }
 

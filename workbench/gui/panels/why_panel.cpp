@@ -37,7 +37,7 @@ void draw_cause(const UiContext& ui, const TickExplanation& told) {
   const bool fine = told.cause == TickCause::nothing || told.cause == TickCause::first_contact;
   const ImU32 ink = fine ? ui.colours.good : told.cause == TickCause::not_told ? ui.colours.text : ui.colours.warning;
   ImGui::PushStyleColor(ImGuiCol_Text, ink);
-  ImGui::TextWrapped("%s", sentence_of(told.cause));
+  ImGui::TextWrapped("%s", sentence_of(told));
   ImGui::PopStyleColor();
   ui.items.note_last("why/cause");
   tooltip(ui,

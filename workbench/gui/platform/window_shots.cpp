@@ -183,7 +183,7 @@ void solve_at_worst(AppModel& model) {
 void explain_busiest_tick(AppModel& model) {
   fold_but(model, "Why this tick");
   look_at_busiest_tick(model);
-  if (model.why().of_tick_in_view() != nullptr) model.why().try_cure();
+  if (model.why().of_tick_in_view() != nullptr && model.why().can_try()) model.why().try_cure();
 }
 
 void map_with_paper(AppModel& model) {

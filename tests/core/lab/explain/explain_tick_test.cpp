@@ -2,6 +2,7 @@
 #include "core/io/pose_file.h"
 #include "tests/core/fingers.h"
 #include "tests/core/lab/explain/made_failures.h"
+#include "tests/support/temp_folder.h"
 
 #include <chrono>
 #include <cstdlib>
@@ -10,6 +11,7 @@
 
 using namespace tangent;
 using namespace tangent::test;
+using tangent::testing::contains;
 
 namespace {
 
@@ -160,6 +162,32 @@ TEST_CASE("a plain tick is nothing and costs one solve, and the threshold of man
   const MadeFailure slow = *gain_too_small_on_a_ball(random);
   CHECK(explain(slow).cause == TickCause::gain_too_small);
   CHECK(explain(slow, {10000}).cause == TickCause::nothing);
+}
+
+TEST_CASE("a finger in the air over a hollow is not said to touch its sides, and no smaller one is its cure") {
+  const ScenePtr torus = scene_of(*generate_mesh("torus"));
+  std::map<Method, int> told;
+  for (const Method method : {Method::paper, Method::robust, Method::newton})
+    for (const double height : {0.07, 0.1, 0.2}) {
+      const Preset preset = sphere_preset(0.005, method);
+      Stepper stepper(torus);
+      TickState state;
+      for (int i = 0; i < 100; ++i) {
+        const TickInput input =
+            at_position(1e-3 * i, Vec3(0.02 * std::cos(0.1 * i), 0.02 * std::sin(0.13 * i), height));
+        const TickState before = state;
+        stepper.step(preset, input, state);
+        const TickExplanation e = explain_tick(torus, preset, input, before, {0});
+        if (e.cause != TickCause::unstable_ground) continue;
+        ++told[method];
+        CHECK(e.untouched);
+        CHECK(e.cure.outcome == CureOutcome::not_sought);
+        CHECK(contains(explanation_text(e), "Unstable ground: the finger touches nothing"));
+        CHECK_FALSE(contains(explanation_text(e), "Cured by"));
+      }
+    }
+  CHECK(told[Method::paper] > 20);
+  CHECK(told[Method::paper] + told[Method::robust] + told[Method::newton] > told[Method::paper]);
 }
 
 TEST_CASE("every finger, method and a 2D scene get an explanation") {

@@ -59,6 +59,20 @@ TEST_CASE("the cause of the tick in view is what explain_tick tells of it, and n
   CHECK(said(ui.model(), Severity::note, "pause on a tick first"));
 }
 
+TEST_CASE("of a tick with which nothing is wrong nothing else is said") {
+  WhyApp ui;
+  ui.run();
+  std::uint64_t plain = 0;
+  for (std::uint64_t tick = 200; tick < ui.model().time().end_tick() && plain == 0; tick += 7) {
+    ui.model().time().select_tick(tick);
+    if (ui.model().why().of_tick_in_view()->told.cause == TickCause::nothing) plain = tick;
+  }
+  REQUIRE(plain > 0);
+  ui.model().why().try_cure();
+  CHECK(said(ui.model(), Severity::note, "nothing is wrong with this tick"));
+  CHECK_FALSE(said(ui.model(), Severity::note, "no value of a parameter"));
+}
+
 TEST_CASE("a cure is tried as a ghost that leaves the preset alone, and set as one step of undo") {
   WhyApp ui;
   ui.run_badly();
