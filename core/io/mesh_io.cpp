@@ -40,8 +40,9 @@ Result<PolygonMesh> read_mesh(const std::filesystem::path& path, double metres_p
     Result<PolygonMesh> mesh = reader(*file, path.string());
     if (!mesh) return mesh;
     if (mesh->face_count() == 0) {
-      return fail("the file has no faces (" + std::to_string(mesh->positions.size()) + " vertices)", path.string(),
-                  "export the mesh with its faces");
+      return fail("the file has no faces (" + std::to_string(mesh->positions.size()) +
+                      (mesh->positions.size() == 1 ? " vertex)" : " vertices)"),
+                  path.string(), "export the mesh with its faces");
     }
     mesh->name = path.filename().string();
     run_halves(run_both, mesh->positions.size(), [&](std::size_t first, std::size_t last) {

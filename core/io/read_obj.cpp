@@ -6,6 +6,9 @@
 #include "core/io/text_cursor.h"
 
 #include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace tangent {
@@ -96,6 +99,9 @@ class ObjReader {
     if (const ForwardReference* bad = normals_.first_unmet(mesh_.normals.size())) {
       return text_.fail_at(bad->line, normals_.problem(), normals_.remedy());
     }
+    if (mesh_.face_count() == 0 && unknown_line_ > 0)
+      return text_.fail_at(unknown_line_, show_token(unknown_) + " is not an OBJ keyword, and the file has no faces",
+                           "is this a mesh?");
     return std::move(mesh_);
   }
 
@@ -109,8 +115,22 @@ class ObjReader {
     if (keyword == "vn") return read_normal();
     const bool printable = std::all_of(keyword.begin(), keyword.end(), [](char c) { return c > 0x20 && c < 0x7f; });
     if (!printable) return text_.fail_here(show_token(keyword) + " is not an OBJ keyword", "is this a text file?");
+    if (unknown_line_ == 0 && mesh_.face_count() == 0 && !is_known(keyword)) {
+      unknown_ = keyword.substr(0, 200);  // of which a message shows less
+      unknown_line_ = text_.line();
+    }
     skip_line();
     return {};
+  }
+
+  /// A statement of the format that says nothing of polygons, as the specification lists them.
+  static bool is_known(std::string_view keyword) {
+    constexpr std::array<std::string_view, 36> kKnown{
+        "vt",     "vp",     "l",      "p",      "g",     "s",        "o",        "mg",         "usemtl",
+        "mtllib", "usemap", "maplib", "cstype", "deg",   "bmat",     "step",     "curv",       "curv2",
+        "surf",   "parm",   "trim",   "hole",   "scrv",  "sp",       "end",      "con",        "bevel",
+        "lod",    "call",   "csh",    "ctech",  "stech", "c_interp", "d_interp", "shadow_obj", "trace_obj"};
+    return std::find(kKnown.begin(), kKnown.end(), keyword) != kKnown.end();
   }
 
   void skip_line() {
@@ -184,6 +204,8 @@ class ObjReader {
 
   TextCursor text_;
   PolygonMesh mesh_;
+  std::string unknown_;           ///< the first keyword that the format does not have ...
+  std::size_t unknown_line_ = 0;  ///< ... and its line; 0: none
   IndexResolver positions_{"vertex"}, normals_{"normal"};
 };
 

@@ -1,6 +1,7 @@
 #include "workbench/cli/audit_report.h"
 
 #include "core/io/file_name.h"
+#include "workbench/cli/count_text.h"
 #include "workbench/cli/mesh_text.h"
 #include "workbench/cli/text_format.h"
 
@@ -92,8 +93,8 @@ Json smoothness_json(const PerceptionAudit& a, int condition) {
 
 std::string audit_text(const MeshAudit& a, const PerceptionAudit& perception, int condition, const ContactMesh& mesh) {
   std::string text = mesh.name() + "\n";
-  text += row("file", format("%llu vertices, %llu faces", (unsigned long long)a.file_vertices,
-                             (unsigned long long)a.file_faces));
+  text +=
+      row("file", count_text(a.file_vertices, "vertex", "vertices") + ", " + count_text(a.file_faces, "face", "faces"));
   text += row("triangles",
               format("%llu, %llu usable", (unsigned long long)a.triangles, (unsigned long long)a.usable_triangles));
   text += row("vertices", a.vertices);
@@ -110,8 +111,8 @@ std::string audit_text(const MeshAudit& a, const PerceptionAudit& perception, in
   text += row("crease edges", a.crease_edges);
   text += row("inside out", mesh.inside_out_triangles() == 0
                                 ? std::string("no")
-                                : format("%llu triangles%s", (unsigned long long)mesh.inside_out_triangles(),
-                                         mesh.turned_over() ? ", turned over" : ""));
+                                : count_text(mesh.inside_out_triangles(), "triangle", "triangles") +
+                                      (mesh.turned_over() ? ", turned over" : ""));
   text += row("slivers", a.sliver_triangles, a.first_slivers);
   text += row("normals against face", a.flipped_normals, a.first_flipped);
   text += row("normals over 60 deg off", a.wild_normals);

@@ -1,6 +1,7 @@
 // workbench explain: why a recorded tick did what it did; without --tick, of all ticks that want explaining.
 #include "core/io/atomic_file.h"
 #include "workbench/cli/command.h"
+#include "workbench/cli/explain_lines.h"
 #include "workbench/cli/explanation_json.h"
 #include "workbench/cli/interrupt.h"
 #include "workbench/cli/mesh_options.h"
@@ -34,8 +35,8 @@ Status write_report(const std::filesystem::path& path, nlohmann::ordered_json js
 
 void print_tick(const ExplainedTick& e) {
   const TickOutput& out = e.why.tick;
-  std::printf("Tick %llu at %.6g s: %s, event %s, %d iterations.\n%s: %s\n", shown(e.tick), e.t_s,
-              to_string(out.status), to_string(out.event), out.iterations, to_string(e.why.cause),
+  std::printf("Tick %llu at %.6g s: %s, event %s, %s.\n%s: %s\n", shown(e.tick), e.t_s, to_string(out.status),
+              to_string(out.event), iterations_count(out).c_str(), to_string(e.why.cause),
               explanation_text(e.why).c_str());
   if (!e.same_bits)
     std::puts(
@@ -58,9 +59,9 @@ void print_recording(const ExplainedRecording& found) {
   std::puts(".");
   for (const CauseInRecording& cause : found.causes) {
     std::printf("%-20s %8llu   %s\n", to_string(cause.cause), shown(cause.ticks), sentence_of(cause.cause));
-    std::printf("    worst: tick %llu at %.6g s, %s, event %s, %d iterations. %s\n", shown(cause.worst.tick),
-                cause.worst.t_s, to_string(cause.worst.why.tick.status), to_string(cause.worst.why.tick.event),
-                cause.worst.why.tick.iterations, explanation_text(cause.worst.why).c_str());
+    std::printf("    worst: tick %llu at %.6g s, %s, event %s, %s. %s\n", shown(cause.worst.tick), cause.worst.t_s,
+                to_string(cause.worst.why.tick.status), to_string(cause.worst.why.tick.event),
+                iterations_count(cause.worst.why.tick).c_str(), explanation_text(cause.worst.why).c_str());
   }
 }
 

@@ -1,11 +1,16 @@
 #include "workbench/cli/explain_lines.h"
 
 #include "core/tick/sources.h"
+#include "workbench/cli/count_text.h"
 #include "workbench/cli/text_format.h"
 
 #include <cstdio>
 
 namespace tangent {
+
+std::string iterations_count(const TickOutput& output) {
+  return count_text(static_cast<std::uint64_t>(output.iterations), "iteration", "iterations");
+}
 
 bool ExplainLines::wanted(const TickOutput& output) {
   const bool raw = !is_smooth(reported_method(preset_));
@@ -21,9 +26,9 @@ void ExplainLines::after(std::uint64_t tick, const TickInput& input, const TickS
   const TickExplanation e = explain_tick(scene_, preset_, input, before, options_);
   if (e.cause == TickCause::nothing) return;
   ++counts_[static_cast<std::size_t>(e.cause)];
-  std::fputs(format("tick %llu at %.6g s, %s, event %s, %d iterations: %s. %s\n", (unsigned long long)tick, input.t_s,
-                    to_string(output.status), to_string(output.event), output.iterations, to_string(e.cause),
-                    explanation_text(e).c_str())
+  std::fputs(format("tick %llu at %.6g s, %s, event %s, %s: %s. %s\n", (unsigned long long)tick, input.t_s,
+                    to_string(output.status), to_string(output.event), iterations_count(output).c_str(),
+                    to_string(e.cause), explanation_text(e).c_str())
                  .c_str(),
              stdout);
 }

@@ -9,6 +9,8 @@
 
 namespace tangent {
 
+std::string iterations_count(const TickOutput& output);  ///< "1 iteration", "2 iterations"
+
 class ExplainLines {
  public:
   ExplainLines(std::shared_ptr<const ContactScene> scene, const Preset& preset, const ExplainOptions& options)

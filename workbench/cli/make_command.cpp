@@ -5,6 +5,7 @@
 #include "core/lab/objects/generate.h"
 #include "core/lab/objects/generate_hard.h"
 #include "workbench/cli/command.h"
+#include "workbench/cli/count_text.h"
 #include "workbench/cli/mesh_options.h"
 #include "workbench/cli/messages.h"
 #include "workbench/cli/option.h"
@@ -85,11 +86,11 @@ int run_make(const MakeOptions& options) {
   if (options.exact) return refuse("--exact is of arc; leave it out");
   const Result<PolygonMesh> mesh = generate_mesh(options.object, options.generate);
   if (!mesh) return refuse(mesh.error().message());
-  return written(
-      options,
-      write_obj(*mesh, options.file, options.metres_per_unit,
-                "workbench " + made_text({options.object, options.generate})),
-      format("%s, %zu vertices, %zu faces", options.object.c_str(), mesh->positions.size(), mesh->face_count()));
+  return written(options,
+                 write_obj(*mesh, options.file, options.metres_per_unit,
+                           "workbench " + made_text({options.object, options.generate})),
+                 options.object + ", " + count_text(mesh->positions.size(), "vertex", "vertices") + ", " +
+                     count_text(mesh->face_count(), "face", "faces"));
 }
 
 }  // namespace

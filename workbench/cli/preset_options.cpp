@@ -38,9 +38,11 @@ PresetOverride parse_assignment(const std::string& text) {
   if (equals == std::string::npos || key == nullptr)
     refuse_assignment(text, "names no key of a preset; write TABLE.KEY=VALUE with the names that a preset file has");
   const std::string_view value = std::string_view(text).substr(equals + 1);
+  const bool choice = key->kind == KeyKind::choice;
   const std::optional<double> number =
-      key->kind == KeyKind::choice ? std::optional<double>(key->choice_index(value)) : parse_finite_double(value);
-  if (!number || !key->allows(*number)) refuse_assignment(text, "is out of range; allowed: " + key->allowed());
+      choice ? std::optional<double>(key->choice_index(value)) : parse_finite_double(value);
+  const char* const why = !number ? "gives no finite number" : choice ? "gives an unknown word" : "is out of range";
+  if (!number || !key->allows(*number)) refuse_assignment(text, std::string(why) + "; allowed: " + key->allowed());
   return {key, *number, "--set " + key->full_name(), key->set};
 }
 

@@ -31,6 +31,18 @@ std::string chosen_command(const CLI::App& app) {
   return chosen.empty() ? std::string() : chosen.front()->get_name();
 }
 
+/// CLI11's words, but for those that say it in terms of its own: how many values an option may have in all, and what is
+/// left over, in the order in which it takes things.
+std::string usage_error_text(const CLI::App& app, const CLI::ParseError& error) {
+  const std::string text = error.what();
+  if (const std::size_t at = text.find(": At Most 1 required"); at != std::string::npos)
+    return text.substr(0, at) + ": is given more than once; give it once";
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return text;
+  std::string left;
+  for (const std::string& word : app.remaining(true)) left += " " + word;
+  return left.empty() ? text : "not expected:" + left;
+}
+
 int parse_and_run(CLI::App& app, CommandResult& result, int argc, const char* const* argv, int (*without_command)()) {
   try {
     app.parse(argc, argv);
@@ -39,7 +51,7 @@ int parse_and_run(CLI::App& app, CommandResult& result, int argc, const char* co
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);
     const std::string command = chosen_command(app);
     const std::string help = "workbench" + (command.empty() ? "" : " " + command) + " --help";
-    print_message(command, std::string(error.what()) + " (see " + help + ")");
+    print_message(command, usage_error_text(app, error) + " (see " + help + ")");
     return kUsage;
   }
   return app.get_subcommands().empty() ? without_command() : result.exit_code;

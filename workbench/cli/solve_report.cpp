@@ -3,6 +3,7 @@
 #include "core/io/file_name.h"
 #include "core/lab/audit/finger_size.h"
 #include "core/preset/schema.h"
+#include "workbench/cli/count_text.h"
 #include "workbench/cli/mesh_text.h"
 #include "workbench/cli/text_format.h"
 
@@ -50,6 +51,7 @@ std::string counts_text(const SolveStatistics& statistics, const Names& names) {
 }
 
 std::string iterations_text(const Distribution& d) {
+  if (d.count == 0) return "none: there is no such tick";
   return format("mean %.3f  p50 %.0f  p99 %.0f  p99.9 %.0f  max %.0f", d.mean, d.p50, d.p99, d.p999, d.max);
 }
 
@@ -71,8 +73,9 @@ Json roughness_json(const SignalRoughness& s, const std::string& unit) {
 }
 
 std::string size_text(const SolveReport& report) {
-  if (report.planar == nullptr) return format("%u triangles", report.mesh->usable_triangle_count());
-  return format("%s polygon, %u vertices", report.planar->closed() ? "closed" : "open", report.planar->patch_count());
+  if (report.planar == nullptr) return count_text(report.mesh->usable_triangle_count(), "triangle", "triangles");
+  return (report.planar->closed() ? "closed" : "open") +
+         (" polygon, " + count_text(report.planar->patch_count(), "vertex", "vertices"));
 }
 
 std::string finger_text(const Finger& finger) {
@@ -132,7 +135,7 @@ std::string solve_text(const SolveReport& report) {
   const SolveStatistics& s = report.statistics;
   const Preset& preset = report.preset.preset;
   const Distribution ns = s.solve_ns();
-  std::string text = format("%llu ticks on %s (%s), %s, method %s%s\n", (unsigned long long)s.ticks(),
+  std::string text = format("%s on %s (%s), %s, method %s%s\n", count_text(s.ticks(), "tick", "ticks").c_str(),
                             scene_name(report).c_str(), size_text(report).c_str(), finger_text(preset.finger).c_str(),
                             to_string(preset.solver.method), report.interrupted ? ", interrupted" : "");
   text += "  status      " + counts_text(s, kTickStatuses) + "\n";

@@ -29,6 +29,8 @@ std::string decided_text(const DecidingNumber& d) {
          " (" + d.against + "), by " + number_text(std::abs(d.margin()), d.unit);
 }
 
+std::string iterations_text(int count) { return std::to_string(count) + (count == 1 ? " iteration" : " iterations"); }
+
 std::string place_text(const TickExplanation& e) {
   std::string text = (e.mesh.planar ? " At vertex " : " At triangle ") + std::to_string(e.mesh.triangle);
   const bool of_edge = e.cause == TickCause::crease || e.cause == TickCause::boundary;
@@ -40,7 +42,7 @@ std::string place_text(const TickExplanation& e) {
   text += place;
   if (e.mesh.mended)
     text += std::string("; with it ") + (e.cause == TickCause::unready ? "built" : "mended") + " the tick is plain (" +
-            std::to_string(e.mesh.proof.iterations) + " iterations)";
+            iterations_text(e.mesh.proof.iterations) + ")";
   return text + ".";
 }
 
@@ -54,7 +56,7 @@ std::string cure_text(const TickCure& cure, bool from_first) {
   std::string text = " Cured by " + cure.key->full_name() + " = " + value(cure.to) + " instead of " + value(cure.from);
   if (cure.as_deep) text += ", as deep";
   return text + " (solved again" + (from_first ? " from that tick on, every one with a contact: " : ": ") +
-         to_string(cure.proof.status) + ", " + std::to_string(cure.proof.iterations) + " iterations).";
+         to_string(cure.proof.status) + ", " + iterations_text(cure.proof.iterations) + ").";
 }
 
 }  // namespace

@@ -119,9 +119,9 @@ TEST_CASE("what is no key or no value of it is refused with what is allowed") {
     CHECK(contains(refusal({"--set", text}), "names no key of a preset; write TABLE.KEY=VALUE"));
   }
   CHECK(contains(refusal({"--set", "solver.gain_overall=10.5"}), "is out of range; allowed: 0 to 10"));
-  CHECK(contains(refusal({"--set", "solver.gain_overall=nan"}), "is out of range; allowed: 0 to 10"));
-  CHECK(contains(refusal({"--set", "solver.gain_overall="}), "is out of range; allowed: 0 to 10"));
+  for (const char* text : {"solver.gain_overall=nan", "solver.gain_overall=", "solver.gain_overall=1um"})
+    CHECK(contains(refusal({"--set", text}), std::string(text) + "' gives no finite number; allowed: 0 to 10"));
   CHECK(contains(refusal({"--set", "solver.max_iterations=2.5"}), "allowed: a whole number from 1 to 10000"));
-  CHECK(contains(refusal({"--set", "solver.method=magic"}), "allowed: paper, newton, robust"));
+  CHECK(contains(refusal({"--set", "solver.method=magic"}), "gives an unknown word; allowed: paper, newton, robust"));
   CHECK(contains(refusal({"--set", "solver.method=2"}), "allowed: paper, newton, robust"));
 }

@@ -46,6 +46,9 @@ TEST_CASE("wrong usage leaves with 2 and says what is wrong") {
   check_refused(run_workbench({"solve", "mesh.obj", "--poses"}), "--poses");
   check_refused(run_workbench({"audit", "mesh.obj", "another.obj"}), "not expected: another.obj");
   check_refused(run_workbench({"make", "cube"}), "--out is required");
+  check_refused(run_workbench({"audit", "mesh.obj", "--bogus", "3"}), "workbench audit: not expected: --bogus 3 (see");
+  check_refused(run_workbench({"solve", "m.obj", "--method", "paper", "--method", "robust"}),
+                "--method: is given more than once; give it once (see");
 }
 
 TEST_CASE("no option takes nan, inf or text for a number") {

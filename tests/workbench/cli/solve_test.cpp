@@ -253,6 +253,34 @@ TEST_CASE("a finger a thousand times larger than the mesh is solved for and rema
   CHECK(scene.summary()["ticks"] == 50);
 }
 
+TEST_CASE("one of a thing is said in the singular, and what no tick is counts as none, not as 0") {
+  const SolveScene scene(1);
+  const std::string plate = scene.folder.write("plate.obj", "v -40 -40 0\nv 40 -40 0\nv 0 40 0\nf 1 2 3\n");
+  const std::string pose = scene.folder.write("one.csv", "t_s,x_m,y_m,z_m\n0,0,0,0.019\n");
+  const ProcessResult result = run_workbench({"solve", plate, "--poses", pose, "--out", scene.folder.file("ticks.csv"),
+                                              "--explain", "--method", "facet", "--many-planes", "0"});
+  CHECK(result.exit_code == 0);
+  CHECK(contains(result.out, "1 tick on plate.obj (1 triangle)"));
+  CHECK_FALSE(contains(result.out, " 1 iterations"));
+  const ProcessResult first =
+      run_workbench({"solve", plate, "--poses", pose, "--out", scene.folder.file("ticks.csv"), "--explain"});
+  CHECK(contains(first.out, "event first, "));
+  CHECK_FALSE(contains(first.out, " 1 iterations"));
+  CHECK(contains(first.out, "no event  none: there is no such tick"));
+}
+
+TEST_CASE("a text that is no mesh is named by its first word and line") {
+  const SolveScene scene(1);
+  const auto solve = [&](const std::string& text) {
+    return run_workbench({"solve", scene.folder.write("text.obj", text), "--poses", scene.poses, "--out",
+                          scene.folder.file("ticks.csv")});
+  };
+  const ProcessResult prose = solve("# a note\n\nhello world\n");
+  CHECK(prose.exit_code == 1);
+  CHECK(contains(prose.err, "text.obj:3: \"hello\" is not an OBJ keyword, and the file has no faces"));
+  CHECK(contains(solve("o part\nv 0 0 0\n").err, "the file has no faces (1 vertex)"));
+}
+
 TEST_CASE("a mesh a thousand times larger than the finger is solved for and remarked on") {
   const SolveScene scene(5);
   const ProcessResult result = scene.solve({"--unit", "m"});
