@@ -88,6 +88,18 @@ std::string link_text(const LinkReport& link) {
 
 }  // namespace
 
+namespace {
+
+/// Of an armed gate, which by itself reads as if there were force.
+std::string faded_text(const ServoRecord& newest) {
+  constexpr double kNone = 0.01;  // of what is asked for
+  if (((newest.device.gate_actions >> static_cast<unsigned>(GateAction::workspace_faded)) & 1u) == 0) return {};
+  const bool none = glm::length(newest.device.force_command_n) <= kNone * force_wanted_n(newest.tick.output);
+  return std::string(none ? " | No force" : " | Less force") + ": the finger is outside the device's workspace";
+}
+
+}  // namespace
+
 std::string monitor_line(const Session& session) {
   const SessionStatus s = session.status();
   std::string text = device_text("force device", s.force_state, s.force_fault) + " | " +
@@ -101,6 +113,7 @@ std::string monitor_line(const Session& session) {
   LinkReport force;
   if (!live && session.force_report(force) && !force.problem.empty()) text += " | " + force.problem;
   if (!live) text += " | " + (why.empty() ? std::string("No force: a arms") : why);
+  if (live && !session.history().empty()) text += faded_text(session.history().newest());
   text += format(" | %.1f Hz", s.servo.rate_hz);
   if (session.history().empty()) return text;
   const ServoRecord& r = session.history().newest();

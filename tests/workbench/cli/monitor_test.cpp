@@ -38,6 +38,12 @@ TEST_CASE("monitor arms simulated devices, and none that are to stay stopped - i
   CHECK(granted != has(stopped.out, "60-tangent-workbench-limits.conf"));
 }
 
+TEST_CASE("monitor says why an armed device gives no force outside its workspace") {
+  const ProcessResult r = run_workbench({"monitor", "--seconds", "3", "--place-offset-mm", "190", "0", "0"});
+  CHECK(r.exit_code == 0);
+  CHECK(has(r.out, "gate armed | No force: the finger is outside the device's workspace | "));
+}
+
 TEST_CASE("a signal ends the monitor in order, with its report") {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     CAPTURE(signal);
