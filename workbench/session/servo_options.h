@@ -44,7 +44,7 @@ struct ServoStatus {
   std::uint64_t missed_deadlines = 0;  ///< skipped
   std::uint64_t gui_drops = 0;         ///< records dropped because the GUI's ring was full
   std::uint64_t recorder_drops = 0;
-  double tick_mean_ns = 0.0, tick_p50_ns = 0.0, tick_p99_ns = 0.0, tick_p999_ns = 0.0;  ///< percentiles to 1/16
+  double tick_mean_ns = 0.0, tick_p50_ns = 0.0, tick_p99_ns = 0.0, tick_p999_ns = 0.0;  ///< percentiles to 1/32
   double tick_worst_ns = 0.0;
   double lateness_worst_ns = 0.0, lateness_p99_ns = 0.0;
   std::uint32_t preset_id = 0;  ///< applied
