@@ -57,7 +57,7 @@ Result<int> replay_as_it_was(const ReplayCommandOptions& options) {
   const Stopwatch watch;
   const Result<ReplayReport> report = replay(options.recording, wanted);
   if (!report) return tl::unexpected(report.error());
-  print_replay(*report, recording->info(), watch.seconds());
+  print_replay(*report, recording->info(), watch.seconds(), options.every_second);
   if (Status ok = write_json(options.json, replay_json(*report, recording->info())); !ok)
     return tl::unexpected(ok.error());
   if (report->cancelled) print_message("replay", "interrupted");

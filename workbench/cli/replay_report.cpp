@@ -88,13 +88,17 @@ nlohmann::ordered_json replay_json(const ReplayReport& report, const RecordingIn
   return json;
 }
 
-void print_replay(const ReplayReport& report, const RecordingInfo& info, double seconds) {
+void print_replay(const ReplayReport& report, const RecordingInfo& info, double seconds, bool every_second) {
   const auto count = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
   if (!info.closed)
     std::puts("The recording was cut short, or is still being made: it holds what was written until then.");
   if (info.missing > 0) std::printf("%llu ticks were not recorded.\n", count(info.missing));
-  std::printf("%llu ticks of %llu and %llu kept states computed again in %.2f s.\n", count(report.checked),
-              count(info.ticks), count(report.states), seconds);
+  if (every_second)
+    std::printf("%llu of %llu ticks, those with a kept state, computed again in %.2f s.\n", count(report.checked),
+                count(info.ticks), seconds);
+  else
+    std::printf("%llu ticks of %llu and %llu kept states computed again in %.2f s.\n", count(report.checked),
+                count(info.ticks), count(report.states), seconds);
   if (report.same()) {
     std::puts(report.cancelled ? "The same bits so far." : "The same bits.");
     return;

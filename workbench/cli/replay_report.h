@@ -8,7 +8,8 @@
 
 namespace tangent {
 
-void print_replay(const ReplayReport& report, const RecordingInfo& info, double seconds);
+/// `every_second`: the ticks with a kept state alone were computed, so that no kept state was led to.
+void print_replay(const ReplayReport& report, const RecordingInfo& info, double seconds, bool every_second);
 nlohmann::ordered_json replay_json(const ReplayReport& report, const RecordingInfo& info);
 
 void print_comparison(const Comparison& comparison);
