@@ -148,7 +148,7 @@ Result<int> check_device(const DeviceCheck& check) {
   if (!attended) return tl::unexpected(attended.error());
   if (const Status kept = keep(protocol, check); !kept) return tl::unexpected(kept.error());
   const bool all = protocol.result.all_proved();
-  std::printf("%s. Not proved:\n", all ? "All that it has was proved" : "Not all proved");
+  std::printf("%s. Left open:\n", all ? "All that is needed was proved" : "Not all proved");
   for (const std::string& line : not_proved_lines(protocol.result, protocol.device))
     std::printf("  %s\n", line.c_str());
   if (const Status logged = packets->complete(); !logged) return tl::unexpected(logged.error());

@@ -72,7 +72,7 @@ void draw_stop(const UiContext& ui, BringUpModel& bring_up) {
   ImGui::PopStyleColor(2);
 }
 
-/// No step had to be left out because the device has no such thing.
+/// No step was left out, by the person or because the device has no such thing.
 bool has_all(const BringUpView& view) {
   return std::count(view.verdicts.begin(), view.verdicts.end(), StepVerdict::not_proved) == 0;
 }
@@ -82,7 +82,7 @@ void draw_question(const UiContext& ui, BringUpModel& bring_up) {
   if (!view.ended) draw_stop(ui, bring_up);
   ImGui::PushFont(ui.fonts.strong);
   if (view.ended)
-    page_text(view.all_proved() ? has_all(view) ? "All proved." : "All that it has was proved." : "Not all proved.",
+    page_text(view.all_proved() ? has_all(view) ? "All proved." : "All that is needed was proved." : "Not all proved.",
               view.all_proved() ? ui.colours.good : ui.colours.bad);
   else
     page_text(view.asks() ? question_text(view, bring_up.capabilities()) : std::string(step_title(view.step)) + " ...",
@@ -108,7 +108,7 @@ void draw_now(const UiContext& ui, const BringUpModel& bring_up) {
   fact(ui, "Force sent", printed("%.3f", glm::length(view.sent_n)), "N");
   fact(ui, "Largest that is asked for", printed("%.1f", bring_up.protocol().most_n), "N");
   ImGui::Dummy({1, ui.px(6)});
-  page_text("Not proved:", ui.colours.text_dim);
+  page_text("Left open:", ui.colours.text_dim);
   for (const std::string& line : not_proved_lines(view, can)) page_text("- " + line, ui.colours.text_dim);
 }
 
