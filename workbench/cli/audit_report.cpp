@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <utility>
+
 namespace tangent {
 namespace {
 
@@ -89,6 +91,23 @@ Json smoothness_json(const PerceptionAudit& a, int condition) {
   return out;
 }
 
+/// What the builder takes as it is, and a person may not have meant: it stands among the numbers above.
+std::string noted_text(const MeshAudit& a, const ContactMesh& mesh) {
+  const std::pair<const char*, std::uint64_t> numbers[]{
+      {"boundary loops", a.boundary_loops},
+      {"non-manifold edges", a.non_manifold_edges},
+      {"non-manifold vertices", a.non_manifold_vertices},
+      {"inconsistent edges", a.inconsistent_edges},
+      {"triangles inside out", mesh.turned_over() ? 0 : mesh.inside_out_triangles()},
+      {"slivers", a.sliver_triangles},
+      {"normals against face", a.flipped_normals},
+      {"normals over 60 deg off", a.wild_normals}};
+  std::string text;
+  for (const auto& [name, count] : numbers)
+    if (count > 0) text += (text.empty() ? "; noted above: " : ", ") + std::string(name) + " " + std::to_string(count);
+  return text;
+}
+
 }  // namespace
 
 std::string audit_text(const MeshAudit& a, const PerceptionAudit& perception, int condition, const ContactMesh& mesh) {
@@ -123,7 +142,7 @@ std::string audit_text(const MeshAudit& a, const PerceptionAudit& perception, in
   text += row("normals used", mesh.normals_used() == NormalSource::file ? "from the file" : "computed");
   text += row("content hash", hash_text(mesh.content_hash()));
   const std::string defects = defects_text(mesh);
-  text += defects.empty() ? "no defects found\n"
+  text += defects.empty() ? "no defects found" + noted_text(a, mesh) + "\n"
                           : "found and dealt with (numbers of the first, counted from 0)\n" + defects;
   text += smoothness_text(perception, condition);
   for (const std::string& note : mesh.notes()) text += "note: " + note + "\n";

@@ -14,7 +14,7 @@ TEST_CASE("a closed sphere is found healthy, in text and JSON") {
   REQUIRE(run_workbench({"make", "icosphere", "--out", mesh}).exit_code == 0);
   const ProcessResult result = run_workbench({"audit", mesh, "--json", folder.file("audit.json")});
   REQUIRE(result.exit_code == 0);
-  CHECK(contains(result.out, "no defects found"));
+  CHECK(contains(result.out, "no defects found\n"));
   const auto audit = nlohmann::json::parse(read_text(folder.file("audit.json")));
   CHECK(audit["triangles"] == 320);
   CHECK(audit["edges"] == 480);
@@ -26,6 +26,15 @@ TEST_CASE("a closed sphere is found healthy, in text and JSON") {
   CHECK(audit["smoothness"]["conditions"]["P1"]["felt_edges"] == 0);
   CHECK(audit["smoothness"]["conditions"]["C3"]["felt_share"].get<double>() == 1.0);
   CHECK(audit["smoothness"]["condition"] == "C3");
+}
+
+TEST_CASE("a mesh that is used as it is has no defects but for what is noted") {
+  const TempFolder folder;
+  const std::string sheet = folder.write("sheet.obj", "v 0 0 0\nv 40 0 0\nv 40 40 0\nv 0 40 0\nf 1 2 3\nf 1 3 4\n");
+  CHECK(contains(run_workbench({"audit", sheet}).out, "no defects found; noted above: boundary loops 1\n"));
+  const std::string cylinder = folder.file("cylinder.obj");
+  REQUIRE(run_workbench({"make", "cylinder", "--segments", "2000", "--out", cylinder}).exit_code == 0);
+  CHECK(contains(run_workbench({"audit", cylinder}).out, "no defects found; noted above: slivers 8000\n"));
 }
 
 TEST_CASE("what can't be used is counted and named by index, and the work goes on") {
