@@ -24,7 +24,8 @@ struct FeatureExclusion {
 
 /// Asks for contacts of a rank under `bound`. On an edge, its ends left out, none is where the centre is beyond its
 /// ends, seen along it from every place of it, or over one of its faces and not over the fan between them, or too far
-/// off. A margin under `enough_m` is worth some effort to widen, or, at a `glance`, nothing. Round fingers.
+/// off; where that tells nothing of the whole edge, it is asked of its halves, and so on. A margin under `enough_m` is
+/// worth some effort to widen, or, at a `glance`, nothing. Round fingers.
 FeatureExclusion exclude_feature_contacts(PatchCache& cache, const TriangleFeature& feature, NormalForm form,
                                           const Vec3& centre, const RankBound& bound, double enough_m = 0.0,
                                           bool glance = false);

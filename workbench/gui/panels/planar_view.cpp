@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cfloat>
 #include <cmath>
+#include <string>
+#include <vector>
 
 namespace tangent {
 
@@ -206,6 +209,36 @@ void draw_force_arrow(const UiContext& ui, ImVec2 from, ImVec2 to, float width, 
                          {neck.x + 0.42f * head * d.y, neck.y - 0.42f * head * d.x}, ink);
 }
 
+/// The arrows' numbers beyond the longer one's tip, on the finger's side, where no tangent or curve runs through them.
+void draw_force_numbers(const UiContext& ui, const ForceArrows& arrows, ImVec2 from, ImVec2 tip, ImDrawList& draw) {
+  struct Row {
+    std::string text;
+    Rgba ink;
+  };
+  std::vector<Row> rows;
+  if (!arrows.same)
+    rows.push_back({printed("%.2f N computed", arrows.computed_n), readable(ui.palette, ui.palette.force_computed)});
+  rows.push_back({printed("%.2f N%s", arrows.felt_n, arrows.same ? "" : " felt"),
+                  readable(ui.palette, ui.palette.force_magnitude)});
+  ImFont* font = ui.fonts.small_number;
+  const float line = ui.px(14), pad = ui.px(4), height = line * static_cast<float>(rows.size());
+  float width = 0.0f;
+  for (const Row& row : rows)
+    width = std::max(width, font->CalcTextSizeA(font->FontSize, FLT_MAX, 0.0f, row.text.c_str()).x);
+  const float dx = tip.x - from.x, dy = tip.y - from.y, length = std::max(1e-3f, std::sqrt(dx * dx + dy * dy)),
+              off = std::max(length, ui.px(10)) + ui.px(8);
+  const ImVec2 middle{from.x + dx / length * (off + 0.5f * width + pad),
+                      from.y + dy / length * (off + 0.5f * height + pad)};
+  const ImVec2 corner{middle.x - 0.5f * width, middle.y - 0.5f * height};
+  draw.AddRectFilled({corner.x - pad, corner.y - 0.5f * pad}, {corner.x + width + pad, corner.y + height + 0.5f * pad},
+                     colour(with_alpha(ui.palette.panel, 0.78f)), ui.px(3));
+  float y = corner.y + 0.5f * (line - font->FontSize);
+  for (const Row& row : rows) {
+    draw.AddText(font, font->FontSize, {corner.x, y}, colour(row.ink), row.text.c_str());
+    y += line;
+  }
+}
+
 /// Computed and felt, each with its number; one arrow where they agree.
 void draw_force(const UiContext& ui, const ServoRecord& record, const Paper& paper, ImDrawList& draw) {
   const TickOutput& out = record.tick.output;
@@ -217,16 +250,7 @@ void draw_force(const UiContext& ui, const ServoRecord& record, const Paper& pap
   const ImU32 felt_ink = colour(ui.palette.force_magnitude), computed_ink = colour(ui.palette.force_computed);
   if (arrows.felt_n > 1e-9) draw_force_arrow(ui, from, felt_tip, 2.6f, felt_ink, draw);
   if (!arrows.same && arrows.computed_n > 1e-9) draw_force_arrow(ui, from, computed_tip, 1.6f, computed_ink, draw);
-  const ImVec2 tip = arrows.computed_n > arrows.felt_n ? computed_tip : felt_tip;
-  ImFont* font = ui.fonts.small_number;
-  float y = tip.y - (tip.y < from.y ? ui.px(arrows.same ? 16 : 30) : ui.px(-4));
-  const auto row = [&](double newton, const char* name, const Rgba& of) {
-    draw.AddText(font, font->FontSize, {tip.x + ui.px(14), y}, colour(readable(ui.palette, of)),
-                 printed("%.2f N%s", newton, name).c_str());
-    y += ui.px(14);
-  };
-  if (!arrows.same) row(arrows.computed_n, " computed", ui.palette.force_computed);
-  row(arrows.felt_n, arrows.same ? "" : " felt", ui.palette.force_magnitude);
+  draw_force_numbers(ui, arrows, from, arrows.computed_n > arrows.felt_n ? computed_tip : felt_tip, draw);
 }
 
 /// A length that is 1, 2 or 5 times a power of ten and about a tenth of the view.
