@@ -9,6 +9,7 @@
 
 namespace tangent {
 
+/// Local coordinates, m, of a usable triangle.
 struct FaceOutline {
   /// The control normals over the middles of the sides, from corner 0 to 1 and so on, in Bernstein form: none is longer
   /// than 1.

@@ -101,9 +101,9 @@ struct EnteredPlaces {
   bool go_on_at(const TrackedPlane& plane, const PlaneContact& contact) const {
     return hold(plane, contact) && (!pressed || contact.penetration_m > 0.0);
   }
-  /// By how much deeper than others a place may be: inside a body, where a contact ends, a god-object slides on along
-  /// the surface to where it rests again, and no depth changes by more than its way there. 0 where that is too far, or
-  /// faces elsewhere.
+  /// By how much deeper than others a place may be, m: inside a body, where a contact ends, a god-object slides on
+  /// along the surface to where it rests again, and by a ball's depth no more than its way there is explained. 0 where
+  /// that is too far, or faces elsewhere.
   double slide_m(const TrackedPlane& plane) const {
     if (!inside || !last || !(glm::dot(plane.normal, last->plane.normal) > 0.0)) return 0.0;
     const double way = glm::distance(plane.point, last->plane.point);

@@ -11,7 +11,8 @@
 namespace tangent {
 namespace {
 
-constexpr int kCurveHalvings = 3, kEdgeHalvings = 3;
+constexpr int kCurveHalvings = 3;
+constexpr int kEdgeHalvings = 3;                   // more: dearer; fewer: solves in vain
 constexpr int kTestsOfEdge = 4, kFacesOfTest = 2;  // what a close look at an edge costs, and at the faces of a vertex
 
 /// An edge of a triangle by its curve's control points, local coordinates.
