@@ -8,7 +8,6 @@ void PatchCache::fill(std::uint32_t slot, std::uint32_t t, NormalForm form) {
   CachedPatch& cached = patches_[slot];
   cached.patch = make_patch(*mesh_, t, form);
   cached.flat = is_flat(cached.patch, kStraightEdge);
-  cached.bend_known = false;
   cached.front = PatchFront{};
   held_[slot] = {t, form};
 }
@@ -32,9 +31,8 @@ void PatchCache::ask_around(std::uint32_t t) {
   }
 }
 
-void PatchCache::fill_bend(CachedPatch& slot, std::uint32_t t) const {
-  slot.bend = mesh_->interior(t) ? curvature_bounds(slot.patch) : CurvatureBounds{};
-  slot.bend_known = true;
+CurvatureBounds PatchCache::bend_of(std::uint32_t t, NormalForm form) {
+  return mesh_->interior(t) ? curvature_bounds(patch(t, form)) : CurvatureBounds{};
 }
 
 void PatchCache::fill(CachedFan& slot, std::uint32_t t, std::uint32_t side, NormalForm form) {

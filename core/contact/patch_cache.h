@@ -17,8 +17,6 @@ namespace tangent {
 
 struct CachedPatch {
   bool flat;
-  bool bend_known;
-  CurvatureBounds bend;
   PatchFront front;
   PnPatch patch;
 };
@@ -34,6 +32,12 @@ struct PatchKey {
 struct CachedOutline {
   PatchKey key;
   FaceOutline outline;
+};
+
+/// How its patch bends: asked for oftener than what else is known of it.
+struct CachedBend {
+  PatchKey key;
+  CurvatureBounds bend;
 };
 
 /// A crease or boundary edge, the fan at the place where it was asked for last, and what they were built from.
@@ -75,6 +79,7 @@ class PatchCache {
         held_(kPatches),
         patches_(std::make_unique_for_overwrite<CachedPatch[]>(kPatches)),
         outlines_(kOutlines),
+        bends_(kBends),
         is_large_(mesh.triangle_count() > kLarge) {}
 
   const ContactMesh& mesh() const { return *mesh_; }
@@ -92,8 +97,8 @@ class PatchCache {
   }
   /// How its patch bends, away from creases and boundaries; unknown beside them.
   const CurvatureBounds& bend(std::uint32_t t, NormalForm form) {
-    CachedPatch& slot = patch_slot(t, form);
-    if (!slot.bend_known) fill_bend(slot, t);
+    CachedBend& slot = bends_[t % kBends];
+    if (slot.key != PatchKey{t, form}) slot = {{t, form}, bend_of(t, form)};
     return slot.bend;
   }
   /// Whether its patch keeps its front, once that is asked. Good until the next call for another triangle.
@@ -150,7 +155,7 @@ class PatchCache {
  private:
   /// Direct-mapped. A contact revisits the few triangles around it, a search those of the last one: on rough ground
   /// hundreds.
-  static constexpr std::uint32_t kPatches = 512, kOutlines = 512, kSlots = 16;
+  static constexpr std::uint32_t kPatches = 512, kOutlines = 512, kBends = 1024, kSlots = 16;
   CachedPatch& patch_slot(std::uint32_t t, NormalForm form) {
     const std::uint32_t slot = t % kPatches;
     if (held_[slot] != PatchKey{t, form}) fill(slot, t, form);
@@ -158,7 +163,7 @@ class PatchCache {
   }
   void ask_around(std::uint32_t t);
   void fill(std::uint32_t slot, std::uint32_t t, NormalForm form);
-  void fill_bend(CachedPatch& slot, std::uint32_t t) const;
+  CurvatureBounds bend_of(std::uint32_t t, NormalForm form);
   void fill(CachedFan& slot, std::uint32_t t, std::uint32_t side, NormalForm form);
   void fill(VertexSurroundings& vertex, std::uint32_t t, std::uint32_t corner, NormalForm form);
   template <class Direction, class OnFace, class OnRay>
@@ -169,6 +174,7 @@ class PatchCache {
   std::vector<PatchKey> held_;
   std::unique_ptr<CachedPatch[]> patches_;  ///< as held_ says
   std::vector<CachedOutline> outlines_;
+  std::vector<CachedBend> bends_;
   std::array<CachedFan, kSlots> fans_;
   VertexSurroundings vertex_;
   static constexpr std::uint32_t kLarge = 1u << 16;  ///< triangles that no fast memory holds: some 5 MB

@@ -130,9 +130,12 @@ void watch_touched(ContactContext& context, const SearchStructures& search, bool
   if (state.touched.count > 0) {
     const FollowedPlaces followed =
         follow_touched(context, state.touched, &decided.contact.plane, touched, decided.evaluations);
-    if (!followed.all)
-      state.clearance = Clearance{};  // the surroundings of a place that is followed no more were not looked at
-    decided.places_changed = !followed.all || followed.merged || followed.folded;
+    // What leads to a place that is followed no more was not looked at.
+    bool known = !followed.lost;
+    for (std::uint32_t i = 0; known && i < followed.left.count; ++i)
+      known = watch_again(state.clearance, context.cache.mesh(), followed.left.places[i]);
+    if (!known) state.clearance = Clearance{};
+    decided.places_changed = followed.lost || followed.left.count > 0 || followed.merged || followed.folded;
   }
   const PlaneContact& tracked = decided.contact.contact;
   // What it is behind of, of a closed body, the finger may leave at a place that is hardly nearer, as at a thin edge.

@@ -13,28 +13,28 @@ FollowedPlaces follow_touched(ContactContext& context, const TouchedPlaces& kept
   settings.method = Method::robust;
   ContactContext quiet{context.cache, settings, context.finger, context.pose, context.origin};
   const double same = kMergedPlaces * settings.tolerance_m;
-  std::size_t own = 0;
   for (std::uint32_t i = 0; i < kept.count; ++i) {
     if (is_wall(kept.places[i])) continue;
-    ++own;
     IterationResult r;
     iterate(quiet, kept.places[i], kTrackBudget, r);
     evaluations += r.evaluations;
     followed.folded = followed.folded || r.met_unstable;
     if (r.converged() && tracked && are_one_place(r.plane, *tracked, same)) {
       followed.merged = true;  // it is followed on as that
-      --own;
       continue;
     }
-    if (!r.converged() || !pushes_with_others(r.contact) || r.contact.penetration_m < -context.hystereses_m(kLeftTouch))
+    if (!r.converged() || !pushes_with_others(r.contact)) {
+      followed.lost = true;
       continue;
+    }
+    if (r.contact.penetration_m < -context.hystereses_m(kLeftTouch)) {
+      followed.left.places[followed.left.count++] = r.plane;
+      continue;
+    }
     const std::size_t before = now.count;
     now.add({r.plane, r.contact}, same);
-    if (now.count > before) continue;
-    followed.merged = true;
-    --own;
+    followed.merged = followed.merged || now.count == before;
   }
-  followed.all = now.count == own;
   return followed;
 }
 

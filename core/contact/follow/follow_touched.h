@@ -7,13 +7,14 @@
 namespace tangent {
 
 struct FollowedPlaces {
-  bool all = true;      ///< none was left out but those that have merged
+  TouchedPlaces left;   ///< by over kLeftTouch, where they are now
+  bool lost = false;    ///< one is found no more, or from inside only
   bool merged = false;  ///< one has, with the tracked one or another
   bool folded = false;  ///< one was unstable on the way, so that it may have leapt
 };
 
 /// The `kept` places, followed to the present pose by the `robust` rule, into `now`. Left out are those that the finger
-/// has left by over kLeftTouch, that have merged with the `tracked` one (null: there is none) or with each other, or
+/// has left, that have merged with the `tracked` one (null: there is none) or with each other, or
 /// got lost; walls (tick/walls.h) are not looked at. `evaluations` grows by the planes that it took.
 FollowedPlaces follow_touched(ContactContext& context, const TouchedPlaces& kept, const TrackedPlane* tracked,
                               TouchedContacts& now, int& evaluations);

@@ -1,5 +1,7 @@
 #include "core/contact/prove/clearance_check.h"
 
+#include "core/contact/prove/contact_hierarchy.h"
+
 #include <algorithm>
 
 namespace tangent {
@@ -27,6 +29,21 @@ void set_free(Clearance& known) {
 void forget_surroundings(Clearance& known) {
   known.margin_m = std::min(known.margin_m, 0.0);
   known.free_m = std::min(known.free_m, 0.0);
+}
+
+/// What a search looks at where such a place is.
+static SearchPart part_of(const ContactMesh& mesh, const SurfacePlace& place) {
+  if (place.feature == Feature::edge) return side_part(place.side);
+  if (place.feature == Feature::vertex) return corner_part(place.side);
+  return mesh.flat_regions().of(place.triangle) == kNone ? SearchPart::face : SearchPart::region;
+}
+
+bool watch_again(Clearance& known, const ContactMesh& mesh, const SurfacePlace& place) {
+  if (known.under_way || known.margin_m < 0.0 || known.watched_count == Clearance::kWatched) return false;
+  known.watched[known.watched_count++] = {place.triangle & 0xFFFFFFFu,
+                                          static_cast<std::uint32_t>(part_of(mesh, place)) & 7u, 1, 0.0f};
+  known.free_m = -1.0;
+  return true;
 }
 
 // By the triangle inequality, which angles of turning obey, too.

@@ -3,7 +3,9 @@
 #pragma once
 
 #include "core/contact/clearance.h"
+#include "core/contact/surface_place.h"
 #include "core/finger/plane_contact.h"
+#include "core/mesh/contact_mesh.h"
 
 #include <cmath>
 #include <limits>
@@ -54,6 +56,10 @@ void set_free(Clearance& known);
 
 /// The next tick looks everywhere: a place was found that is not followed, so that its surroundings are not known.
 void forget_surroundings(Clearance& known);
+
+/// The next look is at that place, which is followed no more, and from there on it is watched. False: nothing is known
+/// that it could be added to, or there is no room.
+bool watch_again(Clearance& known, const ContactMesh& mesh, const SurfacePlace& place);
 
 /// The same knowledge seen from `pose`, `gone` away: what is left of the margins there.
 void recentre(Clearance& known, const FingerPose& pose, double gone);

@@ -1,6 +1,7 @@
 #include "core/contact/prove/face_proof.h"
 
 #include "core/base/tolerances.h"
+#include "core/contact/follow/step_rule.h"
 #include "core/contact/prove/certain_margin.h"
 #include "core/contact/prove/corner_misses.h"
 #include "core/contact/prove/miss_factors.h"
@@ -12,14 +13,15 @@
 namespace tangent {
 namespace {
 
-constexpr int kSettledDepth = 2;  // bisections after which a part is asked for its one zero
-constexpr int kSlackTests = 6;    // parts of a face known roughly: smaller ones tell no more
+constexpr int kSettledDepth = 2;           // bisections after which a part is asked for its one zero, and for folds
+constexpr int kSlackTests = 6;             // parts of a face known roughly: smaller ones tell no more
+constexpr double kClearlyUnstable = -0.1;  // det M or trace M at a zero
 
-/// Excludes what can be of the parts of `whole`, where a margin of `enough_m` need not be the widest.
-template <class Slack>
-void bisect_parts(const miss::Part& whole, const miss::Ground& ground, const miss::Distances& distances,
-                  const RankBound& bound, double enough_m, double rounding_m, const Slack& slack,
-                  PatchExclusion& result) {
+/// Excludes what can be of the parts of `whole`, where a margin of `enough_m` need not be the widest. `is_unstable`:
+/// of a zero, at (u, v).
+template <class Slack, class IsUnstable>
+void bisect_parts(const miss::Part& whole, const miss::Ground& ground, double enough_m, double rounding_m,
+                  const Slack& slack, const IsUnstable& is_unstable, PatchExclusion& result) {
   std::array<miss::Part, kBisections + 2> stack;
   std::size_t size = 0;
   stack[size++] = whole;
@@ -29,14 +31,8 @@ void bisect_parts(const miss::Part& whole, const miss::Ground& ground, const mis
   for (int tests = 0; size > 0; ++tests) {
     ++result.tests;
     const miss::Part& part = stack[--size];
-    double here = 0.0;
-    if (tests > 0) {  // the whole's was asked for
-      if constexpr (Slack::kNone) here = certain_margin(bound.way_to(distances.least(part)), rounding_m);
-      const double by_rank = here;
-      if (!(here > 0.0 && here >= std::min(enough_m, margin)))
-        here = std::max(here, certain_margin(part.margin(enough_m, margin, slack), rounding_m));
-      result.by_rank = result.by_rank || (by_rank > 0.0 && by_rank >= here);
-    }
+    // The whole's was asked for.
+    const double here = tests > 0 ? certain_margin(part.margin(enough_m, margin, slack), rounding_m) : 0.0;
     if (here > 0.0) {
       margin = std::min(margin, here);
       continue;
@@ -45,11 +41,13 @@ void bisect_parts(const miss::Part& whole, const miss::Ground& ground, const mis
     Vec2 zero;
     if (Slack::kNone && stable && part.depth >= kSettledDepth && miss::is_one_to_one(part) &&
         miss::find_zero(part, ground, zero)) {
-      margin = smallest = 0.0;
+      margin = 0.0;  // an unstable one may become stable
+      if (is_unstable(zero)) continue;
       result.hold(zero);
-      continue;
+      break;
     }
-    const double folded = Slack::kNone && ground.tells_folds() && !stable ? miss::folded_margin(part, ground) : 0.0;
+    const bool may_fold = Slack::kNone && part.depth >= kSettledDepth && ground.tells_folds() && !stable;
+    const double folded = may_fold ? miss::folded_margin(part, ground) : 0.0;
     if (folded > 0.0) {
       margin = enough_m > 0.0 ? std::min(margin, folded) : 0.0;
       continue;
@@ -98,9 +96,8 @@ static double least_height_m(const miss::Factors& factors, const miss::Slack& sl
 
 /// Of the patch by its factors; `patch` again for the place. `behind_m`: by how far it ranks behind the bound at least.
 template <class Slack>
-static PatchExclusion exclude(const PnPatch& patch, const miss::Factors& factors, double enough_m,
-                              const RankBound& bound, double behind_m, const Slack& slack,
-                              const std::array<Vec3, 2>& sides, PatchFront& front) {
+static PatchExclusion exclude(const PnPatch& patch, const miss::Factors& factors, double enough_m, double behind_m,
+                              const Slack& slack, const std::array<Vec3, 2>& sides, PatchFront& front) {
   PatchExclusion result;
   if constexpr (!Slack::kNone) {
     if (!slack.place_wanted && factors.any_corner([&](const Vec2& f) { return slack.may_be_zero(f); })) {
@@ -122,7 +119,13 @@ static PatchExclusion exclude(const PnPatch& patch, const miss::Factors& factors
   }
   miss::Ground ground = factors.ground(sides);
   if constexpr (Slack::kNone) ground.upright = ground.upright && (ground.gentle || front.is_kept(patch));
-  bisect_parts(whole, ground, factors.distances(), bound, enough_m, factors.rounding_m, slack, result);
+  const auto is_unstable = [&](const Vec2& uv) {
+    const SurfaceSample there = evaluate(patch, uv.x, uv.y);
+    const double height_m = glm::dot(factors.centre + patch.origin - there.point, there.normal);
+    const Stability stability = normal_bend(there).at_height(height_m);
+    return std::min(stability.det, stability.trace) < kClearlyUnstable;
+  };
+  bisect_parts(whole, ground, enough_m, factors.rounding_m, slack, is_unstable, result);
   if (result.margin_m > 0.0) result.possible = false;
   if (!result.possible) return result;
   result.height_m = estimated_height(patch, factors.centre, result.u, result.v, result.point);
@@ -130,7 +133,8 @@ static PatchExclusion exclude(const PnPatch& patch, const miss::Factors& factors
   return result;
 }
 
-double least_distance(const PnPatch& patch, const Vec3& centre) {
+/// Lower bound of the distance of a centre from the patch, m: a contact on it ranks no less.
+static double least_distance(const PnPatch& patch, const Vec3& centre) {
   const Vec3 c = centre - patch.origin;
   const Vec3 away = c - (patch.offsets[b030] + patch.offsets[b003]) / 3.0;
   const double far = std::sqrt(glm::dot(away, away));
@@ -141,11 +145,14 @@ double least_distance(const PnPatch& patch, const Vec3& centre) {
   return glm::dot(c, along) - most;
 }
 
-PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m, const RankBound& bound,
-                               PatchFront& front) {
-  const double behind_m =
-      certain_margin(bound.way_to(least_distance(patch, centre)), rounding_of_margin(centre, patch.origin));
-  if (behind_m > 0.0 && behind_m >= enough_m) {
+double margin_by_rank(const PnPatch& patch, const Vec3& centre, const RankBound& bound) {
+  return certain_margin(bound.way_to(least_distance(patch, centre)), rounding_of_margin(centre, patch.origin));
+}
+
+PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m, double at_once_m,
+                               const RankBound& bound, PatchFront& front) {
+  const double behind_m = margin_by_rank(patch, centre, bound);
+  if (behind_m > 0.0 && behind_m >= at_once_m) {
     PatchExclusion result;
     result.margin_m = behind_m;
     result.by_rank = true;
@@ -154,12 +161,12 @@ PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double 
   }
   miss::Factors factors;
   if (!factors.set(patch, centre)) return {};
-  return exclude(patch, factors, enough_m, bound, behind_m, miss::NoSlack{}, {patch.offsets[b030], patch.offsets[b003]},
+  return exclude(patch, factors, enough_m, behind_m, miss::NoSlack{}, {patch.offsets[b030], patch.offsets[b003]},
                  front);
 }
 PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m, const RankBound& bound) {
   PatchFront front;
-  return exclude_contact(patch, centre, enough_m, bound, front);
+  return exclude_contact(patch, centre, enough_m, enough_m, bound, front);
 }
 
 PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m, const StandIn& stands_for) {
@@ -178,7 +185,7 @@ PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double 
       slack.longest = slack.spread[i];
   }
   PatchFront front;
-  return exclude(patch, factors, enough_m, kEveryRank, 0.0, slack, stands_for.sides, front);
+  return exclude(patch, factors, enough_m, 0.0, slack, stands_for.sides, front);
 }
 
 static CornerMisses misses_of(const ContactMesh& mesh, std::uint32_t t, const Vec3& centre) {
@@ -192,9 +199,10 @@ double corner_exclusion(PatchCache& cache, std::uint32_t t, NormalForm form, con
 }
 
 bool corners_exclude(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre, double enough_m) {
-  const CornerMisses misses = misses_of(cache.mesh(), t, centre);
+  CornerMisses misses = misses_of(cache.mesh(), t, centre);
   const double wanted = enough_m + rounding_of_margin(centre, misses.p[0]);
-  return misses.least() > wanted && misses.clear(cache.outline(t, form)) >= wanted;
+  if (misses.least() > wanted && misses.clear(cache.outline(t, form)) >= wanted) return true;
+  return misses.look_at_nearest(wanted) && misses.clear(cache.outline(t, form)) >= wanted;
 }
 
 }  // namespace tangent

@@ -44,15 +44,17 @@ inline constexpr RankBound kEveryRank{std::numeric_limits<double>::infinity()};
 /// 1/2^kBisections of the patch, or until the left parts would be unstable (det M or trace M below zero). Once
 /// the margin is `enough_m`, neither heights nor a wider margin are asked for. Where a margin is asked for at all,
 /// parts whose contacts stay unstable for some way are excluded by that way. Of a round finger: at a contact |h| is the
-/// distance of c, and no rank is less, so parts that are further off than `bound` are excluded until they count.
+/// distance of c, and no rank is less, so a patch that is further off than `bound` is excluded until it counts.
 PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m = 0.0,
                                const RankBound& bound = kEveryRank);
-/// The same, where it is kept whether the surface's own normal is on the normals' side.
-PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m, const RankBound& bound,
-                               PatchFront& front);
+/// The same, where it is kept whether the surface's own normal is on the normals' side, and a margin of `at_once_m` by
+/// rank alone is enough.
+PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m, double at_once_m,
+                               const RankBound& bound, PatchFront& front);
 
-/// Lower bound of the distance of a centre from the patch, m: a contact on it ranks no less.
-double least_distance(const PnPatch& patch, const Vec3& centre);
+/// How far the centre of a round finger may go until a contact on the patch can rank below `bound`, by its distance
+/// alone.
+double margin_by_rank(const PnPatch& patch, const Vec3& centre, const RankBound& bound);
 
 /// exclude_contact for a patch that stands for another: contacts are stable or not on a triangle with these sides, and
 /// `centre` is wrong for each normal, across the middle of the corners' normals by no more than a vector in the hull of
@@ -74,7 +76,8 @@ PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double 
 /// a contact on it, as far as the direction of the middle of the corners' misses (c - P) x N tells. 0: look closer.
 double corner_exclusion(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre);
 
-/// Whether the corners tell that no centre nearer than `enough_m` has a contact on the face.
+/// Whether the corners tell that no centre nearer than `enough_m` has a contact on the face, along that direction or to
+/// the nearest of what lies between their misses.
 bool corners_exclude(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre, double enough_m);
 
 }  // namespace tangent

@@ -11,7 +11,6 @@
 namespace tangent {
 namespace {
 
-constexpr int kCurveHalvings = 3;
 constexpr int kEdgeHalvings = 3;                   // more: dearer; fewer: solves in vain
 constexpr int kTestsOfEdge = 4, kFacesOfTest = 2;  // what a close look at an edge costs, and at the faces of a vertex
 
@@ -82,30 +81,17 @@ double beyond_ends(const EdgeEnds& e, const Vec3& centre) {
 }
 
 /// Lower bound of the distance from c to a cubic with these control points: the nearest of them, seen from c towards
-/// its chord. Halved while that is under `enough` and may come to be over `known` by much more, at most `halvings`
-/// times.
-double curve_distance(const std::array<Vec3, 4>& b, const Vec3& c, double known, double enough, int halvings) {
-  constexpr double kLittle = 0.1;  // of what is between
+/// its chord.
+double curve_distance(const std::array<Vec3, 4>& b, const Vec3& c) {
   const Vec3 chord = b[3] - b[0], d = c - b[0];
   const double length2 = glm::dot(chord, chord);
   const double along = length2 > 0.0 ? std::clamp(glm::dot(d, chord) / length2, 0.0, 1.0) : 0.0;
-  const Vec3 away = d - along * chord, from_end = c - b[3];
+  const Vec3 away = d - along * chord;
   const double off = std::sqrt(glm::dot(away, away));
+  if (!(off > 0.0)) return 0.0;
   const double nearest = std::min(std::min(glm::dot(d, away), glm::dot(c - b[1], away)),
-                                  std::min(glm::dot(c - b[2], away), glm::dot(from_end, away)));
-  const double least = off > 0.0 ? nearest / off : 0.0;
-  if (least >= enough || halvings == 0) return least;
-  const double back = 1.0 - along;
-  const Vec3 there =
-      c - (back * back * (back * b[0] + 3.0 * along * b[1]) + along * along * (3.0 * back * b[2] + along * b[3]));
-  const double most =
-      std::sqrt(std::min(glm::dot(there, there), std::min(glm::dot(d, d), glm::dot(from_end, from_end))));
-  if (most <= known || (most < enough && most - least <= kLittle * (most - known))) return least;
-  const Vec3 ab = 0.5 * (b[0] + b[1]), bc = 0.5 * (b[1] + b[2]), cd = 0.5 * (b[2] + b[3]);
-  const Vec3 abc = 0.5 * (ab + bc), bcd = 0.5 * (bc + cd), middle = 0.5 * (abc + bcd);
-  const double first = curve_distance({b[0], ab, abc, middle}, c, known, enough, halvings - 1);
-  return first <= known ? first
-                        : std::min(first, curve_distance({middle, bcd, cd, b[3]}, c, known, enough, halvings - 1));
+                                  std::min(glm::dot(c - b[2], away), glm::dot(c - b[3], away)));
+  return nearest / off;
 }
 
 /// Lower bound of the distance from c to an edge's curve by its corners: its control points are those of the chord less
@@ -215,7 +201,7 @@ double parts_margin(const Question& q, const EdgeSides& edge, double wanted, int
   double least = std::numeric_limits<double>::max();
   for (const EdgeSides& part : halves_of(edge)) {
     ++result.tests;
-    const double behind = q.bound.way_to(curve_distance(part.near.curve, q.centre, 0.0, 0.0, 0));
+    const double behind = q.bound.way_to(curve_distance(part.near.curve, q.centre));
     double safe = std::max(behind, beyond_ends(part.near, q.centre));
     if (safe < wanted) safe = std::max(safe, over_face(part.near, q.centre));
     if (safe < wanted && part.has_far) safe = std::max(safe, over_face(part.far, q.centre));
@@ -229,12 +215,13 @@ double parts_margin(const Question& q, const EdgeSides& edge, double wanted, int
 
 FeatureExclusion edge_margin(const Question& q, std::uint32_t k) {
   double safe = q.bound.way_to(edge_distance(q.mesh, q.t, k, q.centre));
-  if (safe > 0.0 && safe >= q.enough_m) return {safe, true, 0};
+  const double share = q.glance ? 1.0 : kAtOnceShare;
+  if (safe > 0.0 && safe >= share * q.enough_m) return {safe, true, 0};
   const PnPatch& patch = q.cache.patch(q.t, q.form);
   const std::array<Vec3, 4> curve = edge_curve(q.mesh, patch, q.t, k);
   const double wanted = q.enough_m + q.rounding_m;
-  safe = q.bound.way_to(curve_distance(curve, q.centre, 0.0, 0.0, 0));
-  if (safe > 0.0 && safe >= wanted) return {safe - q.rounding_m, true, kTestsOfEdge};
+  safe = q.bound.way_to(curve_distance(curve, q.centre));
+  if (safe > q.rounding_m && safe >= share * wanted) return {safe - q.rounding_m, true, kTestsOfEdge};
   const double behind = safe;
   EdgeSides edge{edge_ends(q.mesh, patch, q.t, k), {}, false};
   safe = std::max(safe, beyond_ends(edge.near, q.centre));
@@ -246,14 +233,7 @@ FeatureExclusion edge_margin(const Question& q, std::uint32_t k) {
     edge.has_far = true;
     safe = std::max(safe, over_face(edge.far, q.centre));
   }
-  bool by_rank = behind >= safe;
-  if (safe < wanted) {
-    const double known = q.bound.after(std::max(0.0, q.glance ? wanted : safe));
-    const double distance = curve_distance(curve, q.centre, known, q.bound.after(wanted), kCurveHalvings);
-    by_rank = by_rank || q.bound.way_to(distance) > safe;
-    safe = std::max(safe, q.bound.way_to(distance));
-  }
-  FeatureExclusion result{certain_margin(safe, q.rounding_m), by_rank, kTestsOfEdge};
+  FeatureExclusion result{certain_margin(safe, q.rounding_m), behind >= safe, kTestsOfEdge};
   if (q.glance || result.margin_m > 0.0) return result;
   result.by_rank = false;
   const double least = parts_margin(q, edge, 2.0 * q.rounding_m, kEdgeHalvings, result);

@@ -2,7 +2,6 @@
 
 #include "core/contact/prove/certain_margin.h"
 
-#include <initializer_list>
 #include <utility>
 
 namespace tangent::miss {
@@ -59,20 +58,6 @@ void multiply_miss(const std::array<InFrame, 10>& d, const std::array<InFrame, 6
 
 }  // namespace
 
-double Distances::least(const Part& part) const {
-  const Vec2 middle = (part.corner[0] + part.corner[1] + part.corner[2]) / 3.0;
-  const double u = middle.x, v = middle.y, w = 1.0 - u - v;
-  const double there = w * w * w * d[b300] + u * u * u * d[b030] + v * v * v * d[b003] + 6.0 * w * u * v * d[b111] +
-                       3.0 * (w * w * (u * d[b210] + v * d[b201]) + u * u * (w * d[b120] + v * d[b021]) +
-                              v * v * (u * d[b012] + w * d[b102]));
-  double change = 0.0;
-  for (const Vec2& corner : part.corner) {
-    const Vec2 off = corner - middle;
-    change = std::max(change, std::abs(off.x) * slope_u + std::abs(off.y) * slope_v);
-  }
-  return there - change;
-}
-
 bool Factors::set(const PnPatch& patch, const Vec3& c) {
   // Mixed terms weighted 1 (NormalForm::vlachos) are half control normals of the Bernstein form.
   const double mixed = 0.5 * patch.mixed_weight;
@@ -108,25 +93,6 @@ bool Factors::set(const PnPatch& patch, const Vec3& c) {
     d[a] = in_frame(centre.x - offset.x, centre.y - offset.y, centre.z - offset.z);
   }
   return true;
-}
-
-Distances Factors::distances() const {
-  const Vec3 away = (d[b300].vector() + d[b030].vector() + d[b003].vector()) / 3.0;
-  const double far = std::sqrt(glm::dot(away, away));
-  const Vec3 along = far > 0.0 ? away / far : Vec3(0.0);
-  Distances out;
-  for (std::size_t k = 0; k < d.size(); ++k) out.d[k] = glm::dot(d[k].vector(), along);
-  const auto& x = out.d;
-  const auto most = [](std::initializer_list<double> all) {
-    double m = 0.0;
-    for (const double a : all) m = std::max(m, std::abs(a));
-    return 3.0 * m;
-  };
-  out.slope_u = most({x[b210] - x[b300], x[b120] - x[b210], x[b030] - x[b120], x[b111] - x[b201], x[b021] - x[b111],
-                      x[b012] - x[b102]});
-  out.slope_v = most({x[b201] - x[b300], x[b102] - x[b201], x[b003] - x[b102], x[b111] - x[b210], x[b012] - x[b111],
-                      x[b021] - x[b120]});
-  return out;
 }
 
 Ground Factors::ground(const std::array<Vec3, 2>& sides) const {

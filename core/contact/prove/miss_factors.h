@@ -6,15 +6,6 @@
 
 namespace tangent::miss {
 
-/// The distance of c from the patch, seen along one direction: a cubic by its control points. No part is nearer.
-struct Distances {
-  std::array<double, 10> d;
-  double slope_u, slope_v;  ///< it changes by no more along u and v
-
-  /// Lower bound over a part.
-  double least(const Part& part) const;
-};
-
 /// A vector in a frame (t, s, axis): its first two components side by side, the third twice.
 struct InFrame {
   Two across, along;
@@ -51,9 +42,6 @@ struct Factors {
     for (const InFrame& x : d) least = std::min(least, x.z());
     return std::max(0.0, least);
   }
-
-  /// From c to the middle of the corners.
-  Distances distances() const;
 
   /// `sides`: of the flat triangle, from corner 0 to 1 and to 2.
   Ground ground(const std::array<Vec3, 2>& sides) const;

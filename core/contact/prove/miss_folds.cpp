@@ -3,27 +3,20 @@
 namespace tangent::miss {
 namespace {
 
-/// Derivative of f along the side of a part from corner 0 to another: a fifth of it lies within `off` of `middle`.
-struct SideDerivative {
-  Vec2 middle;
-  double off = 0.0;
-};
-
+/// How far a fifth of the derivative of f along the side of a part from corner 0 to another is from `middle` at most.
 template <int Corner>
-SideDerivative side_derivative(const Part& part) {
-  SideDerivative side{0.2 * (part.at_corner(Corner) - part.at_corner(0))};
+double most_off(const Part& part, const Vec2& middle) {
   double most2 = 0.0;
 #pragma GCC unroll 5
   for (int i = 0; i <= 4; ++i) {
 #pragma GCC unroll 5
     for (int j = 0; j <= 4 - i; ++j) {
       const Vec2& end = part.f[Corner == 1 ? quintic_index(i, j + 1) : quintic_index(i, j)];
-      const Vec2 d = end - part.f[quintic_index(i + 1, j)] - side.middle;
+      const Vec2 d = end - part.f[quintic_index(i + 1, j)] - middle;
       most2 = std::max(most2, glm::dot(d, d));
     }
   }
-  side.off = std::sqrt(most2);
-  return side;
+  return std::sqrt(most2);
 }
 
 /// The derivatives of f along two sides of a part, a fifth of them, one of them less a share of the other, so that
@@ -51,22 +44,30 @@ Spread spread(const Part& part) {
   out.first = swapped ? to_2 : to_1;
   out.second = (swapped ? to_1 : to_2) - share * out.first;
   out.first_own = out.second_own = kUnbounded;
-#pragma GCC unroll 5
-  for (int i = 0; i <= 4; ++i) {
-#pragma GCC unroll 5
-    for (int j = 0; j <= 4 - i; ++j) {
-      const Vec2& from = part.f[quintic_index(i + 1, j)];
-      const Vec2 along_1 = part.f[quintic_index(i, j + 1)] - from, along_2 = part.f[quintic_index(i, j)] - from;
-      const Vec2 first = swapped ? along_2 : along_1;
-      const Vec2 second = (swapped ? along_1 : along_2) - share * first;
-      out.first_own = std::min(out.first_own, glm::dot(e, first));
-      out.first_other = std::max(out.first_other, std::abs(cross(e, first)));
-      out.second_own = std::min(out.second_own, side * cross(e, second));
-      out.second_other = std::max(out.second_other, std::abs(glm::dot(e, second)));
-    }
+  const auto include = [&](int i, int j) {
+    const Vec2& from = part.f[quintic_index(i + 1, j)];
+    const Vec2 along_1 = part.f[quintic_index(i, j + 1)] - from, along_2 = part.f[quintic_index(i, j)] - from;
+    const Vec2 first = swapped ? along_2 : along_1;
+    const Vec2 second = (swapped ? along_1 : along_2) - share * first;
+    out.first_own = std::min(out.first_own, glm::dot(e, first));
+    out.first_other = std::max(out.first_other, std::abs(cross(e, first)));
+    out.second_own = std::min(out.second_own, side * cross(e, second));
+    out.second_other = std::max(out.second_other, std::abs(glm::dot(e, second)));
+  };
+  const auto is_known = [&] {
+    return out.first_own > 0.0 && out.second_own > 0.0 && out.room() > 1e-9 * out.first_own * out.second_own;
+  };
+  include(4, 0);  // mostly the corners tell that nothing is known
+  include(0, 4);
+  include(0, 0);
+  if (!is_known()) return out;
+#pragma GCC unroll 4
+  for (int i = 0; i <= 3; ++i) {
+    const int first = i == 0 ? 1 : 0, last = i == 0 ? 3 : 4 - i;  // the others
+#pragma GCC unroll 4
+    for (int j = first; j <= last; ++j) include(i, j);
   }
-  const bool known = out.first_own > 0.0 && out.second_own > 0.0 && out.room() > 1e-9 * out.first_own * out.second_own;
-  out.turns = known ? (swapped ? -side : side) : 0.0;
+  out.turns = is_known() ? (swapped ? -side : side) : 0.0;
   return out;
 }
 
@@ -117,15 +118,16 @@ double folded_margin(const Part& part, const Ground& ground) {
     margin = all.room() / rate;
   }
   if (!ground.gentle) return std::min(margin, 1e300);
-  const SideDerivative a = side_derivative<1>(part), b = side_derivative<2>(part);
   const Vec2 flat_a = ground.flat(to_1), flat_b = ground.flat(to_2);
-  const double turn_a = 0.2 * ground.turn(to_1), turn_b = 0.2 * ground.turn(to_2);
   const double side = cross(flat_a, flat_b) > 0.0 ? 1.0 : -1.0;
-  const auto length = [](const Vec2& x) { return std::sqrt(glm::dot(x, x)); };
-  const double trace = side * (cross(a.middle, flat_b) + cross(flat_a, b.middle));
-  const double trace_room = trace - (a.off * length(flat_b) + b.off * length(flat_a));
+  const Vec2 middle_a = 0.2 * (part.at_corner(1) - part.at_corner(0));
+  const Vec2 middle_b = 0.2 * (part.at_corner(2) - part.at_corner(0));
+  const double trace = side * (cross(middle_a, flat_b) + cross(flat_a, middle_b));
+  if (!(trace > 0.0)) return std::min(margin, 1e300);
+  const double long_a = std::sqrt(glm::dot(flat_a, flat_a)), long_b = std::sqrt(glm::dot(flat_b, flat_b));
+  const double trace_room = trace - (most_off<1>(part, middle_a) * long_b + most_off<2>(part, middle_b) * long_a);
   if (trace_room > 1e-9 * trace)
-    margin = std::max(margin, trace_room / (turn_a * length(flat_b) + turn_b * length(flat_a)));
+    margin = std::max(margin, trace_room / (0.2 * ground.turn(to_1) * long_b + 0.2 * ground.turn(to_2) * long_a));
   return std::min(margin, 1e300);
 }
 

@@ -70,6 +70,9 @@ struct Part {
   /// one says `most_m`, the most that counts. 0 where they don't exclude it.
   double margin(double enough_m, double most_m) const {
     const Vec2 f0 = at_corner(0), f1 = at_corner(1), f2 = at_corner(2);
+    const double a = cross(f0, f1), b = cross(f1, f2), c = cross(f2, f0);
+    const bool between = a > 0.0 ? std::min(b, c) > 0.0 : a < 0.0 && std::max(b, c) < 0.0;
+    if (between) return 0.0;  // 0 lies between the corners'
     double clear = beside(perpendicular(f0 + f1 + f2));
     if (clear > 0.0 && clear >= std::min(enough_m, most_m)) return clear;
     for (const Vec2& side : {f1 - f0, f2 - f1, f0 - f2}) {

@@ -37,21 +37,21 @@ double even_exclusion(const ContactMesh& mesh, std::uint32_t t, const Vec3& cent
   return certain_margin(beside - bulge, rounding_of_margin(centre, mesh.position(t, 0)));
 }
 
-/// Of the margin that would be enough: where a first look tells that much, no more is looked for.
-constexpr double kAtOnceShare = 0.25;
-
+/// On rough ground, where searches don't look far ahead, corners tell next to nothing of what a glance left.
 PatchExclusion exclude_face(ContactContext& context, std::uint32_t t, const RankBound& bound, double enough_m) {
   const Vec3& centre = context.pose.position;
   PatchExclusion proof;
-  const double at_once = std::max(corner_exclusion(context.cache, t, context.settings.normal_form, centre),
-                                  even_exclusion(context.cache.mesh(), t, centre));
+  double at_once = even_exclusion(context.cache.mesh(), t, centre);
+  if (!(enough_m > 0.0) || context.far_ahead)
+    at_once = std::max(at_once, corner_exclusion(context.cache, t, context.settings.normal_form, centre));
   if (at_once > 0.0 && at_once >= kAtOnceShare * enough_m) {
     proof.margin_m = at_once;
     proof.possible = false;
     return proof;
   }
   PatchFront& front = context.cache.front(t, context.settings.normal_form);
-  proof = exclude_contact(context.cache.patch(t, context.settings.normal_form), centre, enough_m, bound, front);
+  proof = exclude_contact(context.cache.patch(t, context.settings.normal_form), centre, enough_m,
+                          context.far_ahead ? enough_m : kAtOnceShare * enough_m, bound, front);
   const double behind = bound.way_to(proof.least_height_m);
   proof.by_rank = proof.by_rank || behind > proof.margin_m;
   proof.margin_m = std::max(proof.margin_m, behind);
@@ -176,7 +176,8 @@ bool excludes_at_a_glance(ContactContext& context, const FingerCore* core, const
   }
   const Vec3& centre = context.pose.position;
   return corners_exclude(context.cache, part.triangle, form, centre, enough_m) ||
-         even_exclusion(mesh, part.triangle, centre) >= enough_m;
+         even_exclusion(mesh, part.triangle, centre) >= enough_m ||
+         margin_by_rank(context.cache.patch(part.triangle, form), centre, bound) >= enough_m;
 }
 
 }  // namespace tangent

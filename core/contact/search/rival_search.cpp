@@ -52,12 +52,14 @@ RivalSearch::RivalSearch(ContactContext& context, const SearchStructures& search
       cost_(is_round(context.finger) ? SearchWork::of_round() : SearchWork::of_core()),
       most_work_(tick_work(cost_.late, context.late_m / context.hystereses_m(cost_.most_late))),
       context_{context.cache, settings_, context.finger,  context.pose, context.origin,
-               context.trace, 0,         context.moved_m, context.moved} {
+               context.trace, 0,         context.moved_m, context.moved},
+      context_ahead_{context.cache, settings_, context.finger, ahead_pose_, context.origin} {
   if (!is_round(context.finger)) {
     context_.core = &core_.emplace(context.finger, context.pose, any_turn_);
     steady_ = steady_ && can_ask_steady(*core_, tracked_rank_m_);
   }
   context_.most_crossings = kMostRivalCrossings;
+  context_.far_ahead = ahead > 1.0f;
   remember(tracked.plane, tracked.contact);
   change_ = change_of(tracked.plane, tracked.sample, tracked.contact.height_m);
   tracked_is_even_ = tracked.plane.feature == Feature::face && is_even(tracked.plane.triangle);
@@ -199,8 +201,9 @@ void RivalSearch::remember(const TrackedPlane& plane, const PlaneContact& contac
 
 bool RivalSearch::leads_to(std::size_t i, std::uint32_t t, double margin_m) {
   work_ += cost_.slope;
+  if (!core_) return same_basin(context_.cache, settings_.normal_form, t, known_[i], margin_m);
   KnownContact known = known_[i];
-  if (core_ && known.height_m >= 0.0) {
+  if (known.height_m >= 0.0) {
     const CoreSupport support = core_->support(known.normal);
     known.height_m = std::max(known.height_m, flattest_height(support, t, margin_m) - known_depths_[i]);
     if (known.height_m > kFlatFlank * core_->reach_m() && t != known.triangle) {
@@ -318,10 +321,9 @@ Look RivalSearch::look_at(PartOfTriangle part, double enough_m, const RankBound&
 
 bool RivalSearch::excludes_ahead(const PartOfTriangle& part) {
   work_ += cost_.glance;
-  ContactContext there{context_.cache, settings_, context_.finger, ahead_pose_, context_.origin};
   int tests = 0;
-  const bool excluded =
-      excludes_at_a_glance(there, core_ ? &*core_ahead_ : nullptr, part, {ahead_bound_m_, closing_}, ahead_m_, tests);
+  const bool excluded = excludes_at_a_glance(context_ahead_, core_ ? &*core_ahead_ : nullptr, part,
+                                             {ahead_bound_m_, closing_}, ahead_m_, tests);
   if (!core_) work_ += cost_.test * tests;
   return excluded;
 }

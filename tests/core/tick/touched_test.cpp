@@ -131,6 +131,25 @@ TEST_CASE("a second wall that is found is followed from then on, and nothing is 
   CHECK(found == 1);
 }
 
+TEST_CASE("a wall that the finger has left pushes again in the tick in which it is touched again") {
+  Stepper stepper(walls(2));
+  const Preset preset = all_of(0.005);
+  const double tremor = kLeftTouch * preset.solver.switch_hysteresis_m;
+  TickState state;
+  int several = 0, left = 0, late = 0;
+  for (int i = 0; i < 1200; ++i) {
+    const double depth = 2.5e-4 * std::sin(0.05 * i);  // less than in the other one
+    const std::uint32_t before = state.touched.count;
+    stepper.step(preset, at_position(1e-3 * i, {0.0047, 0.0050 - depth, 5e-3 * std::sin(0.021 * i)}), state);
+    left += state.touched.count < before;
+    several += depth > 1e-6 && state.touched.count == 1;
+    late += (depth > 1e-6 && state.touched.count != 1) || (depth < -tremor - 1e-6 && state.touched.count > 0);
+  }
+  CHECK(left > 5);
+  CHECK(several > 500);
+  CHECK(late == 0);
+}
+
 TEST_CASE("round the corner and back the force of all places does no work, that of the deepest does where it flips") {
   const FingerPose middle{Vec3(0.0041, 0.0042, 0.0), Quat(1, 0, 0, 0)};
   const auto loop = circle_of_poses(middle, Vec3(0, 0, 1), 5e-4, 4096);

@@ -1,6 +1,7 @@
 // The finger's distance from the pose of the last search, and the remaining margins there.
 #include "core/contact/prove/clearance_check.h"
 
+#include "core/contact/prove/contact_hierarchy.h"
 #include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>
@@ -8,6 +9,7 @@
 #include <limits>
 
 using namespace tangent;
+using namespace tangent::test;
 
 TEST_CASE(
     "margins count from one place: going and coming back costs nothing, turning does where the finger is not round") {
@@ -115,6 +117,43 @@ TEST_CASE("from a look-ahead that lies ahead of a finger that is not round its t
 }
 
 TEST_CASE("nothing is known before the first search") { CHECK(deeper_possible(Clearance{}, FingerPose{}, 0.0, -1.0)); }
+
+TEST_CASE("a place that is followed no more is due at once, where anything is known and there is room for it") {
+  const ScenePtr scene = scene_of(make_icosphere(0.030, 2));
+  const ContactMesh& mesh = scene->mesh();
+  SurfacePlace place{.feature = Feature::face, .triangle = 7};
+  Clearance known;
+  known.margin_m = 1e-3;
+  known.height_m = std::numeric_limits<double>::infinity();
+  known.ahead_m = 1e-3;
+  known.ahead_height_m = 0.02;
+  known.watched[0] = {.triangle = 3, .margin_m = 5e-4f};
+  known.watched_count = 1;
+  set_free(known);
+  const FingerPose here{known.centre, Quat(1.0, 0.0, 0.0, 0.0)};
+  REQUIRE(!deeper_possible(known, here, 0.0, 0.0196));
+
+  REQUIRE(watch_again(known, mesh, place));
+  CHECK(deeper_possible(known, here, 0.0, 0.0196));  // though the finger has not moved
+  CHECK(!is_beyond(known, here, 0.0, 0.0196));       // and all else stays known
+  REQUIRE(+known.watched_count == 2);
+  CHECK(known.watched[1] == WatchedTriangle{.triangle = 7, .holds_rival = 1});
+  place.feature = Feature::edge;
+  place.side = 2;
+  REQUIRE(watch_again(known, mesh, place));
+  CHECK(+known.watched[2].part == static_cast<std::uint32_t>(SearchPart::side2));
+  place.feature = Feature::vertex;
+  REQUIRE(watch_again(known, mesh, place));
+  CHECK(+known.watched[3].part == static_cast<std::uint32_t>(SearchPart::corner2));
+
+  while (known.watched_count < Clearance::kWatched) REQUIRE(watch_again(known, mesh, place));
+  CHECK(!watch_again(known, mesh, place));
+  Clearance nothing;
+  CHECK(!watch_again(nothing, mesh, place));
+  nothing.margin_m = 1e-3;
+  nothing.under_way = 1;
+  CHECK(!watch_again(nothing, mesh, place));
+}
 
 TEST_CASE("unlimited clearance stays so") {
   Clearance c = Clearance::unlimited();

@@ -196,7 +196,7 @@ TEST_CASE(
   CHECK(wrong == 0);
 }
 
-TEST_CASE("the least distance is a lower bound of that to every place, and of a far small patch all of it") {
+TEST_CASE("a margin by rank is a lower bound of the distance to every place, and of a far small patch all of it") {
   Random random(129);
   int wrong = 0;
   double least = 1.0;
@@ -204,7 +204,7 @@ TEST_CASE("the least distance is a lower bound of that to every place, and of a 
     const PnPatch patch = random_patch(random);
     const double far = std::pow(10.0, random.in(-1.0, 2.0));
     const Vec3 c = patch.origin + far * patch_size(patch) * random.direction();
-    const double distance = least_distance(patch, c);
+    const double distance = margin_by_rank(patch, c, {0.0, 1.0});
     const Vec2 uv = random.barycentric();
     const double there = glm::distance(c, evaluate_point(patch, uv.x, uv.y));
     wrong += distance > there * (1.0 + 1e-12);
@@ -260,6 +260,31 @@ TEST_CASE("scaling patch and centre scales margin and height, and moving both mo
     CHECK(scaled.margin_m == 0x1p20 * e.margin_m);
     CHECK(scaled.least_height_m == 0x1p20 * e.least_height_m);
   }
+}
+
+TEST_CASE("past the middle of a deep bowl, where every contact is a hill-top, none is said to be possible") {
+  PolygonMesh ball = make_icosphere(0.010, 0);  // its normals lean by up to 37 degrees on a face: not gentle
+  ball.normals.clear();
+  ball.corner_normal.clear();
+  ContactMeshOptions inwards;
+  inwards.crease_rad = 180.0 * kDegree;
+  inwards.turn_over = true;
+  const ContactMesh bowl = *ContactMesh::build(ball, inwards);
+  Random random(130);
+  int hill_tops = 0, possible = 0;
+  for (int i = 0; i < rounds(2000); ++i) {
+    const PnPatch patch = make_patch(bowl, random.below(bowl.triangle_count()), NormalForm::bernstein);
+    const Vec2 at = random.barycentric();
+    const SurfaceSample s = evaluate(patch, at.x, at.y);
+    const double h =
+        random.in(0.015, 0.045) * (glm::dot(s.normal, s.point - bowl.bounds().centre()) < 0.0 ? 1.0 : -1.0);
+    const Stability stability = normal_bend(s).at_height(h);
+    if (!(stability.det > 0.3 && stability.trace < -0.3)) continue;
+    ++hill_tops;
+    possible += exclude_contact(patch, s.point + h * s.normal, i % 2 ? 1e-3 : 0.0).possible;
+  }
+  CHECK(hill_tops > rounds(1000));
+  CHECK(possible == 0);
 }
 
 TEST_CASE("the corners of a face exclude no contact that comes up within what was asked for, beside creases, too") {

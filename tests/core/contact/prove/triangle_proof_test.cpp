@@ -198,3 +198,45 @@ TEST_CASE("a margin that is not said to be a rank's keeps contacts of every rank
     CHECK(by_miss > rounds(8000) / 80);
   }
 }
+
+TEST_CASE("a glance from ahead excludes no face that a round finger may touch before it has gone as far as asked") {
+  Random random(131);
+  std::vector<ContactMesh> meshes = creased_meshes_and_rims();
+  PolygonMesh rough = make_icosphere(0.030, 3);
+  for (Vec3& p : rough.positions) p *= random.in(0.96, 1.04);
+  rough.normals.clear();
+  rough.corner_normal.clear();
+  meshes.push_back(*ContactMesh::build(rough));
+  const Finger finger = finger_of(FingerShape::sphere);
+  const SolverSettings settings;
+  int all = 0, excluded = 0, behind = 0, wrong = 0;
+  for (const ContactMesh& mesh : meshes) {
+    PatchCache cache(mesh);
+    for (int i = 0; i < rounds(20000); ++i) {
+      const PartOfTriangle face{random.below(mesh.triangle_count())};
+      const Vec2 at = random.barycentric();
+      SurfaceSample s;
+      cache.sample(face.triangle, settings.normal_form, at.x, at.y, s);
+      const FingerPose there = resting_on(finger, s.point, s.normal, random.in(-0.010, 0.010), random);
+      const PlaneContact contact = contact_on_plane(finger, there, s.point, s.normal);
+      if (!normal_bend(s).at_height(contact.height_m).stable()) continue;
+      double gone = 0.0;
+      const FingerPose here = before(finger, there, std::pow(10.0, random.in(-5.0, -2.0)), random, gone);
+      const RankBound bound{contact_rank(finger, contact) + random.in(-0.020, 0.005), random.below(2) ? 1.0 : 2.0};
+      const double enough = gone * std::pow(10.0, random.in(-1.0, 1.0));
+      const bool counts = contact_rank(finger, contact) < bound.rank_m + (bound.closing - 1.0) * gone;
+      ContactContext context{cache, settings, finger, here, mesh.origin()};
+      int tests = 0;
+      const bool told = excludes_at_a_glance(context, nullptr, face, bound, enough, tests);
+      ++all;
+      excluded += told;
+      behind += told && enough > gone;  // only a contact that doesn't count may be there
+      wrong += told && enough > gone * (1.0 + 1e-9) + 1e-12 && counts;
+    }
+  }
+  MESSAGE(excluded << " of " << all << " excluded, " << behind << " that hold contacts which don't count, " << wrong
+                   << " wrongly");
+  CHECK(wrong == 0);
+  CHECK(excluded > all / 20);
+  CHECK(behind > all / 100);
+}
