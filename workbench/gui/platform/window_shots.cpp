@@ -378,7 +378,7 @@ constexpr WindowView kViews[] = {
     {"tune", "a front of planes and error, brushed: its trials, where they fail, and one of them tried", Theme::dark,
      tune_paper, tune_front},
     {"heat-map", "planes and failures over two gains", Theme::light, tune_paper, show_heat_map},
-    {"inspect", "mesh inspection: a defect found, marked and listed", Theme::dark, inspect, look_at_first_finding},
+    {"inspect", "mesh inspection: what it found, marked and listed", Theme::dark, inspect, look_at_first_finding},
     {"slice", "the body cut open", Theme::dark, inspect, slice_open},
     {"parameters", "favourites, gain advice, and two presets side by side", Theme::dark, tune_and_compare,
      look_from_contact_side},
