@@ -36,10 +36,22 @@ void refuse_outputs_over_inputs(const CLI::App& command) {
   }
 }
 
+/// Elsewhere standard output is meant by it.
+void refuse_dashes(const CLI::App& command) {
+  constexpr std::array<std::string_view, 10> kOutputs{"--out",     "--json",    "--csv",        "--front",
+                                                      "--plot",    "--summary", "--iterations", "--figures",
+                                                      "--packets", "--heat-map"};
+  for (const GivenOption& output : given_options(command))
+    if (output.value == "-" && std::find(kOutputs.begin(), kOutputs.end(), output.name) != kOutputs.end())
+      refuse_option(output.name,
+                    "- would be a file of that name, not standard output: name a file, ./- if it is meant");
+}
+
 }  // namespace
 
 void on_run(CLI::App& command, std::function<void()> run) {
   command.callback([&command, run = std::move(run)] {
+    refuse_dashes(command);
     refuse_outputs_over_inputs(command);
     check_own_outputs(command);
     run();

@@ -58,6 +58,21 @@ TEST_CASE("every output replaces a file of its own kind, and no other, naming it
   CHECK(run_workbench({"make", "cube", "--out", empty}).exit_code == 0);  // nothing is lost with it
 }
 
+TEST_CASE("a dash for an output is refused, and no file of that name is written") {
+  const TempFolder folder;
+  const std::string mesh = folder.file("cube.obj");
+  REQUIRE(run_workbench({"make", "cube", "--out", mesh}).exit_code == 0);
+  for (const std::vector<std::string>& command : {std::vector<std::string>{"make", "cube", "--out", "-"},
+                                                  {"audit", mesh, "--json", "-"},
+                                                  {"devices", "--json", "-"}}) {
+    CAPTURE(command[0]);
+    const auto refused = run_workbench(command);
+    CHECK(refused.exit_code == 2);
+    CHECK(contains(refused.err, "- would be a file of that name, not standard output"));
+    CHECK(!std::filesystem::exists("-"));
+  }
+}
+
 TEST_CASE("figures and the page of a report replace their own, and write nothing where another has their name") {
   const TempFolder folder;
   const std::string recording = folder.file("r.sqlite"), figures = folder.file("figures"),
