@@ -25,7 +25,7 @@ struct ContactContext {
   bool in_real_time = false;         ///< a first search, too, takes a tick's time at most, and goes on in the next ones
   const FingerCore* core = nullptr;  ///< for proofs, of a finger that is not round; set by searches
   bool brief = false;                ///< its proofs look at a face once, and not at pieces of it
-  bool far_ahead = false;            ///< of round fingers: a wide margin is worth more to them than a quick one
+  bool far_ahead = false;            ///< of a round finger they look for all of a margin by rank, not a share
 
   /// A length given in switch hystereses (base/tolerances.h), m.
   double hystereses_m(double count) const { return count * settings.switch_hysteresis_m; }

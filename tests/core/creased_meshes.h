@@ -30,6 +30,15 @@ inline std::vector<ContactMesh> creased_meshes() {
   return meshes;
 }
 
+/// Smooth ground of bumps as large as its triangles.
+inline PolygonMesh rough_ball(Random& random) {
+  PolygonMesh rough = make_icosphere(0.030, 3);
+  for (Vec3& p : rough.positions) p *= random.in(0.96, 1.04);
+  rough.normals.clear();
+  rough.corner_normal.clear();
+  return rough;
+}
+
 /// With rims, where a third of the faces is missing.
 inline ContactMesh open_stone() {
   const PolygonMesh whole = make_icosphere(0.030, 2);

@@ -14,8 +14,8 @@ struct FollowedPlaces {
 };
 
 /// The `kept` places, followed to the present pose by the `robust` rule, into `now`. Left out are those that the finger
-/// has left, that have merged with the `tracked` one (null: there is none) or with each other, or
-/// got lost; walls (tick/walls.h) are not looked at. `evaluations` grows by the planes that it took.
+/// has left, that have merged with the `tracked` one (null: there is none) or with each other, or got lost; walls
+/// (tick/walls.h) are not looked at. `evaluations` grows by the planes that it took.
 FollowedPlaces follow_touched(ContactContext& context, const TouchedPlaces& kept, const TrackedPlane* tracked,
                               TouchedContacts& now, int& evaluations);
 

@@ -19,8 +19,8 @@ inline double rounding_of_margin(const Vec3& centre, const Vec3& place) {
 /// 0 where nothing is certain.
 inline double certain_margin(double margin_m, double rounding_m) { return std::max(0.0, margin_m - rounding_m); }
 
-/// Of the margin that would be enough: where a first look tells that much, no more is looked for, but by a search that
-/// looks far ahead. Larger: dearer looks; smaller: more of them.
+/// Of the margin that would be enough: where a first look tells that much, no more is looked for. Larger: dearer looks;
+/// smaller: more of them.
 inline constexpr double kAtOnceShare = 0.25;
 
 }  // namespace tangent

@@ -27,10 +27,6 @@ constexpr double kLittleOff = 0.1;
 /// Of the margin that would be enough: a piece that is known only roughly is not bisected for more.
 constexpr double kPieceShare = 0.05;
 
-/// Of the margin that would be enough: where the corners tell that much, no more is looked for. Larger: dearer looks;
-/// smaller: more of them.
-constexpr double kCornersShare = 0.25;
-
 /// Bisections of a patch, and pieces looked at in all. Along the flank of a thin core no piece is straight before it is
 /// thinner than the flank's normals are apart: there a solve tells more, and costs as much as six pieces.
 constexpr int kPieceDepth = 6, kPieceDepthThin = 2, kPieces = 40;
@@ -223,7 +219,7 @@ PatchExclusion exclude_pieces(const ContactContext& context, const PnPatch& patc
 PatchExclusion exclude_face_by_core(ContactContext& context, const FingerCore& core, std::uint32_t t,
                                     const RankBound& bound, double enough_m) {
   const NormalForm form = context.settings.normal_form;
-  const double wanted = kCornersShare * enough_m;
+  const double wanted = kAtOnceShare * enough_m;
   const double by_corners = corner_exclusion_by_core(context.cache, t, form, core, wanted);
   PatchExclusion proof;
   if (!(by_corners > 0.0 && by_corners >= wanted))

@@ -157,7 +157,7 @@ class RivalSearch {
   HeightChange change_;    ///< of the tracked contact
   FingerPose ahead_pose_;  ///< the middle of the look-ahead, its radius (0: it is about the finger), what counts there
   double ahead_m_ = 0.0, ahead_bound_m_ = 0.0;
-  ContactContext context_ahead_;  ///< there
+  ContactContext context_ahead_;  ///< of glances from there
   std::array<KnownContact, kKnownContacts> known_;
   std::array<double, kKnownContacts> known_depths_;
   std::size_t known_count_ = 0;

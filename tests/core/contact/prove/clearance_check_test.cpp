@@ -11,8 +11,10 @@
 using namespace tangent;
 using namespace tangent::test;
 
-TEST_CASE(
-    "margins count from one place: going and coming back costs nothing, turning does where the finger is not round") {
+namespace {
+
+/// A millimetre of way, and a triangle that is due after half of it.
+Clearance watching_one() {
   Clearance fresh;
   fresh.margin_m = 1e-3;
   fresh.height_m = std::numeric_limits<double>::infinity();
@@ -20,6 +22,14 @@ TEST_CASE(
   fresh.ahead_height_m = 0.02;
   fresh.watched[0] = {.triangle = 7, .margin_m = 5e-4f};
   fresh.watched_count = 1;
+  return fresh;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "margins count from one place: going and coming back costs nothing, turning does where the finger is not round") {
+  const Clearance fresh = watching_one();
   const Quat straight(1.0, 0.0, 0.0, 0.0), turned = glm::angleAxis(1e-3, Vec3(0.0, 0.0, 1.0));
   Finger sphere, ellipsoid;
   ellipsoid.shape = FingerShape::ellipsoid;
@@ -121,14 +131,8 @@ TEST_CASE("nothing is known before the first search") { CHECK(deeper_possible(Cl
 TEST_CASE("a place that is followed no more is due at once, where anything is known and there is room for it") {
   const ScenePtr scene = scene_of(make_icosphere(0.030, 2));
   const ContactMesh& mesh = scene->mesh();
-  SurfacePlace place{.feature = Feature::face, .triangle = 7};
-  Clearance known;
-  known.margin_m = 1e-3;
-  known.height_m = std::numeric_limits<double>::infinity();
-  known.ahead_m = 1e-3;
-  known.ahead_height_m = 0.02;
-  known.watched[0] = {.triangle = 3, .margin_m = 5e-4f};
-  known.watched_count = 1;
+  SurfacePlace place{.feature = Feature::face, .triangle = 5};
+  Clearance known = watching_one();
   set_free(known);
   const FingerPose here{known.centre, Quat(1.0, 0.0, 0.0, 0.0)};
   REQUIRE(!deeper_possible(known, here, 0.0, 0.0196));
@@ -137,7 +141,7 @@ TEST_CASE("a place that is followed no more is due at once, where anything is kn
   CHECK(deeper_possible(known, here, 0.0, 0.0196));  // though the finger has not moved
   CHECK(!is_beyond(known, here, 0.0, 0.0196));       // and all else stays known
   REQUIRE(+known.watched_count == 2);
-  CHECK(known.watched[1] == WatchedTriangle{.triangle = 7, .holds_rival = 1});
+  CHECK(known.watched[1] == WatchedTriangle{.triangle = 5, .holds_rival = 1});
   place.feature = Feature::edge;
   place.side = 2;
   REQUIRE(watch_again(known, mesh, place));

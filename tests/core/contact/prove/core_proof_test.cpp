@@ -282,11 +282,7 @@ TEST_CASE("no contact of an ellipsoid or a capsule comes up on a face within the
 TEST_CASE("the corners of a face exclude no contact of an ellipsoid or a capsule, beside creases, too") {
   Random random(79);
   std::vector<ContactMesh> meshes = creased_meshes_and_rims();
-  PolygonMesh rough = make_icosphere(0.030, 3);
-  for (Vec3& p : rough.positions) p *= random.in(0.96, 1.04);
-  rough.normals.clear();
-  rough.corner_normal.clear();
-  meshes.push_back(*ContactMesh::build(rough));
+  meshes.push_back(*ContactMesh::build(rough_ball(random)));
   for (const FingerShape shape : kCoreShapes) {
     CAPTURE(static_cast<int>(shape));
     int excluded = 0, all = 0, wrong = 0;

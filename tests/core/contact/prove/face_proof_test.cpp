@@ -290,10 +290,7 @@ TEST_CASE("past the middle of a deep bowl, where every contact is a hill-top, no
 TEST_CASE("the corners of a face exclude no contact that comes up within what was asked for, beside creases, too") {
   Random random(128);
   std::vector<ContactMesh> meshes = creased_meshes_and_rims();
-  PolygonMesh rough = make_icosphere(0.030, 3);
-  for (Vec3& p : rough.positions) p *= random.in(0.96, 1.04);
-  rough.normals.clear();
-  rough.corner_normal.clear();
+  const PolygonMesh rough = rough_ball(random);
   for (const double crease_deg : {30.0, 180.0}) {
     ContactMeshOptions options;
     options.crease_rad = crease_deg * kDegree;

@@ -202,11 +202,7 @@ TEST_CASE("a margin that is not said to be a rank's keeps contacts of every rank
 TEST_CASE("a glance from ahead excludes no face that a round finger may touch before it has gone as far as asked") {
   Random random(131);
   std::vector<ContactMesh> meshes = creased_meshes_and_rims();
-  PolygonMesh rough = make_icosphere(0.030, 3);
-  for (Vec3& p : rough.positions) p *= random.in(0.96, 1.04);
-  rough.normals.clear();
-  rough.corner_normal.clear();
-  meshes.push_back(*ContactMesh::build(rough));
+  meshes.push_back(*ContactMesh::build(rough_ball(random)));
   const Finger finger = finger_of(FingerShape::sphere);
   const SolverSettings settings;
   int all = 0, excluded = 0, behind = 0, wrong = 0;
