@@ -337,6 +337,27 @@ TEST_CASE("an output that can't be written is named before any work and nothing 
 
 namespace {
 
+/// Whether a temporary file lies in `folder`, of at least `bytes`.
+bool half_written(const TempFolder& folder, std::uintmax_t bytes = 0) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    if (!contains(entry.path().filename().string(), ".tmp-")) continue;
+    std::error_code gone;
+    const std::uintmax_t size = std::filesystem::file_size(entry, gone);
+    if (!gone && size >= bytes) return true;
+  }
+  return false;
+}
+
+/// Waits until a command writes its ticks to `folder`; false after half a minute. An empty temporary file is not
+/// enough: with one the command tries beforehand whether it may write there, and takes it away again.
+bool comes_to_write(const TempFolder& folder) {
+  for (int i = 0; i < 3000; ++i) {
+    if (half_written(folder, 100000)) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
 void interrupt_a_run(int signal) {
   // The paper's iteration without gains runs to its limit on a finger far bigger than the torus' bore: slow on purpose.
   const TempFolder folder;
@@ -351,18 +372,7 @@ void interrupt_a_run(int signal) {
   const Process process({"solve", mesh, "--poses", poses, "--out", ticks, "--summary", folder.file("summary.json"),
                          "--method", "paper", "--gain-curvature-m", "0", "--max-iterations", "1000", "--tolerance-um",
                          "1e-6"});
-  // Its temporary file shows that it is at work.
-  const auto at_work = [&] {
-    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
-      std::error_code gone;
-      if (contains(entry.path().filename().string(), ".tmp-") && std::filesystem::file_size(entry, gone) > 100000 &&
-          !gone) {
-        return true;
-      }
-    }
-    return false;
-  };
-  for (int i = 0; i < 3000 && !at_work(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  REQUIRE(comes_to_write(folder));
   process.interrupt(signal);
   const ProcessResult result = process.wait();
   CAPTURE(result.err);
@@ -395,20 +405,14 @@ TEST_CASE("signals that ask for an end at once leave no temporary file, either")
   std::string text = "t_s,x_m,y_m,z_m\n";
   for (int i = 0; i < 300000; ++i) text += std::to_string(i) + "e-3,0.0" + std::to_string(1 + i % 7) + ",0.01,0.02\n";
   const std::string poses = folder.write("poses.csv", text);
-  const auto half_written = [&] {
-    const std::filesystem::directory_iterator files(folder.path());
-    return std::any_of(begin(files), end(files),
-                       [](const auto& entry) { return contains(entry.path().filename().string(), ".tmp-"); });
-  };
   for (const std::vector<int>& signals : {std::vector<int>{SIGQUIT}, {SIGABRT}, {SIGPIPE}, {SIGINT, SIGINT}}) {
     CAPTURE(signals.front());
     const Process process({"solve", mesh, "--poses", poses, "--out", folder.file("ticks.csv"), "--method", "paper",
                            "--gain-curvature-m", "0", "--max-iterations", "1000", "--tolerance-um", "1e-6"});
-    for (int i = 0; i < 3000 && !half_written(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    REQUIRE(half_written());
+    REQUIRE(comes_to_write(folder));
     for (const int signal : signals) process.interrupt(signal);
     process.wait();
-    CHECK_FALSE(half_written());
+    CHECK_FALSE(half_written(folder));
   }
 }
 
