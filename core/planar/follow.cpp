@@ -11,7 +11,9 @@ constexpr double kNewtonSlope = -0.05;
 /// Longest step of `robust` on a patch, in parameters, and the one taken where the contact is unstable.
 constexpr double kLongestStep = 1.0, kDownhillStep = 0.25;
 /// Patches that one step of `robust` may cross: at 1 m/s a finger crosses a metre in a million patches at that rate.
-constexpr int kMostPatches = 1024;
+constexpr std::uint32_t kMostPatches = 1024;
+/// After so many that were looked at one by one the index is asked for those that follow.
+constexpr std::uint32_t kLooksBetweenRuns = 8;
 
 /// A tangent line with the finger's contact on it.
 struct Line {
@@ -164,15 +166,26 @@ class Follower {
 
   /// Goes on over patches that the finger has passed as a whole, without evaluating lines on them.
   bool walk_on(bool after, std::uint32_t& patch) {
-    const std::uint32_t start = patch;
-    for (int crossed = 0; crossed < kMostPatches; ++crossed) {
+    std::uint32_t crossed = 0, looks = 0;
+    while (crossed < kMostPatches) {
       const CurvePatch& p = x_.curve.patch(patch);
       if (after ? !(ahead_at_end(p, x_.centre) > 0.0) : !(ahead_at_start(p, x_.centre) < 0.0)) break;
       if ((after ? p.joint_after : p.joint_before) != CurveJoint::smooth) break;
       patch = after ? x_.curve.after(patch) : x_.curve.before(patch);
-      ++out_.patch_changes;
+      ++crossed;
+      if (++looks % kLooksBetweenRuns == 0) crossed += skip_runs(after, kMostPatches - crossed, patch);
     }
-    return patch != start;
+    out_.patch_changes += static_cast<int>(crossed);
+    return crossed > 0;
+  }
+
+  /// Over runs of patches that it has passed, `most` at most. How many they were.
+  std::uint32_t skip_runs(bool after, std::uint32_t most, std::uint32_t& patch) const {
+    const std::uint32_t next = x_.curve.index().first_not_passed(patch, after, x_.centre);
+    if (next == kNone) return 0;
+    const std::uint32_t skipped = std::min(after ? next - patch : patch - next, most);
+    patch = after ? patch + skipped : patch - skipped;
+    return skipped;
   }
 
   StopReason leave_vertex(const Line& line, PlanarPlace& next) {

@@ -44,14 +44,36 @@ PatchIndex PatchIndex::build(std::span<const PlanarBox> items, std::span<const D
 // A place P holds a contact in direction d where (at - P).d = 0. With w from the box's middle to `at` and `reach` half
 // its diagonal, (at - P).d lies within `reach` of w.d, and w.d between |w| cos(a + half) and |w| cos(a - half), where a
 // is the angle between w and the middle direction. So all are ahead if |w| cos(a + half) > reach; behind likewise.
-bool PatchIndex::passes_by(std::uint32_t node, const Vec2& at) const {
+int PatchIndex::side_of(std::uint32_t node, const Vec2& at) const {
   const PlanarBox& box = nodes_[node];
   const Cone& cone = cones_[node];
   const Vec2 w = at - 0.5 * (box.low + box.high), size = box.high - box.low;
-  const double along = std::abs(glm::dot(w, cone.middle));
+  const double towards = glm::dot(w, cone.middle), along = std::abs(towards);
   const double across = std::abs(w.x * cone.middle.y - w.y * cone.middle.x);
   const double clear = along * cone.cos_half - across * cone.sin_half - rounding_m_;
-  return clear > 0.0 && 4.0 * clear * clear > glm::dot(size, size);
+  if (!(clear > 0.0 && 4.0 * clear * clear > glm::dot(size, size))) return 0;
+  return towards > 0.0 ? 1 : -1;
+}
+
+std::uint32_t PatchIndex::first_not_passed(std::uint32_t item, bool forwards, const Vec2& at) const {
+  const int passed = forwards ? 1 : -1;
+  // Children with this last bit come last on the way.
+  const std::uint32_t last = forwards ? 1 : 0;
+  std::uint32_t node = leaves_ + item / kRun;
+  if (side_of(node, at) != passed) return item;
+  for (;;) {
+    while (node > 1 && (node & 1u) == last) node >>= 1;
+    if (node <= 1) return kNone;
+    node ^= 1u;
+    while (side_of(node, at) != passed) {
+      if (node >= leaves_) {
+        const std::uint32_t first = (node - leaves_) * kRun;
+        if (first >= count_) return kNone;
+        return forwards ? first : std::min(first + kRun, count_) - 1;
+      }
+      node = 2 * node + (1u - last);
+    }
+  }
 }
 
 }  // namespace tangent

@@ -47,16 +47,28 @@ class PatchIndex {
   /// lower the bound; what lies at the bound exactly is still looked at, so that ties can go to the lowest item.
   template <class Look>
   void each_within(const Vec2& at, const double& bound2, Look look) const {
+    // Of a bend about `at` both boxes hold it: the runs' middles tell which way the curve comes nearer.
+    const auto middles = [&](const Entry& far, const Entry& near) { return middle_is_nearer(far, near, at); };
     visit(
-        at, bound2, [](std::uint32_t) { return false; }, look);
+        at, bound2, [](std::uint32_t) { return false; }, middles, look);
   }
 
   /// The same without runs in which no place's normal passes through `at`: those cannot hold a contact.
   template <class Look>
   void each_facing(const Vec2& at, const double& bound2, Look look) const {
+    // Mostly nothing is found and the order is of no use, so boxes alone tell it where they can.
+    const auto boxes = [&](const Entry& far, const Entry& near) {
+      if (far.distance2 != near.distance2) return far.distance2 < near.distance2;
+      return far.distance2 <= bound2 && middle_is_nearer(far, near, at);
+    };
     visit(
-        at, bound2, [&](std::uint32_t node) { return passes_by(node, at); }, look);
+        at, bound2, [&](std::uint32_t node) { return passes_by(node, at); }, boxes, look);
   }
+
+  /// Towards the end (`forwards`) or the start of the curve: the nearest item, from `item` on, of a run that `at` may
+  /// not have passed as a whole. It is ahead, or behind, of every place and tangent line of the runs before; none: of
+  /// all up to there.
+  std::uint32_t first_not_passed(std::uint32_t item, bool forwards, const Vec2& at) const;
 
   std::size_t memory_bytes() const { return nodes_.size() * (sizeof(PlanarBox) + sizeof(Cone)); }
 
@@ -69,15 +81,24 @@ class PatchIndex {
     double cos_half = -1.0, sin_half = 0.0;
   };
 
-  /// Whether `at` is ahead of every place of the run in every direction of it, or behind all.
-  bool passes_by(std::uint32_t node, const Vec2& at) const;
+  /// 1: `at` is ahead of every place of the run in every direction of it, -1: behind all; 0: neither is certain.
+  int side_of(std::uint32_t node, const Vec2& at) const;
+  bool passes_by(std::uint32_t node, const Vec2& at) const { return side_of(node, at) != 0; }
+  struct Entry {
+    std::uint32_t node;
+    double distance2;
+  };
+  bool middle_is_nearer(const Entry& a, const Entry& b, const Vec2& at) const {
+    return nodes_[middle_leaf(a.node)].distance2(at) < nodes_[middle_leaf(b.node)].distance2(at);
+  }
+
   /// The node of the leaf in the middle of a node's run.
   std::uint32_t middle_leaf(std::uint32_t node) const {
     const int levels = std::bit_width(leaves_) - std::bit_width(node);
     return levels == 0 ? node : (node << levels) + (1u << (levels - 1));
   }
-  template <class Skip, class Look>
-  void visit(const Vec2& at, const double& bound2, Skip skip, Look look) const;
+  template <class Skip, class IsNearer, class Look>
+  void visit(const Vec2& at, const double& bound2, Skip skip, IsNearer is_nearer, Look look) const;
 
   std::uint32_t count_ = 0;       ///< items
   std::uint32_t leaves_ = 1;      ///< a power of two
@@ -86,12 +107,8 @@ class PatchIndex {
   double rounding_m_ = 0.0;
 };
 
-template <class Skip, class Look>
-void PatchIndex::visit(const Vec2& at, const double& bound2, Skip skip, Look look) const {
-  struct Entry {
-    std::uint32_t node;
-    double distance2;
-  };
+template <class Skip, class IsNearer, class Look>
+void PatchIndex::visit(const Vec2& at, const double& bound2, Skip skip, IsNearer is_nearer, Look look) const {
   std::array<Entry, 32> stack;  // one a level, and the depth is at most that of 2^20 leaves
   std::size_t size = 0;
   stack[size++] = {1, nodes_[1].distance2(at)};
@@ -105,9 +122,7 @@ void PatchIndex::visit(const Vec2& at, const double& bound2, Skip skip, Look loo
     }
     Entry near{2 * entry.node, nodes_[2 * entry.node].distance2(at)};
     Entry far{2 * entry.node + 1, nodes_[2 * entry.node + 1].distance2(at)};
-    // Of a bend about `at` both boxes hold it: the runs' middles tell which way the curve comes nearer.
-    if (nodes_[middle_leaf(far.node)].distance2(at) < nodes_[middle_leaf(near.node)].distance2(at))
-      std::swap(near, far);
+    if (is_nearer(far, near)) std::swap(near, far);
     if (far.distance2 <= bound2) stack[size++] = far;
     if (near.distance2 <= bound2) stack[size++] = near;
   }

@@ -39,6 +39,7 @@ class PatchSearch {
     bool found = false;
     const auto consider = [&](const PlanarContact& contact) {
       if (!contact.converged() || contact.stability <= 0.0 || std::abs(contact.height_m) >= below) return;
+      if (rival.in_front && contact.height_m < 0.0) return;
       if (rival.besides.feature != Feature::none &&
           glm::length(contact.place.point - rival.besides.point) <= kSameContact * x_.settings.tolerance_m)
         return;

@@ -8,8 +8,9 @@ namespace tangent {
 
 /// Contacts that are asked for.
 struct PlanarRival {
-  double below_m = 0.0;  ///< |height| less than this; infinity allowed
-  PlanarPlace besides;   ///< the contact that is known already; feature none: none is
+  double below_m = 0.0;   ///< |height| less than this; infinity allowed
+  PlanarPlace besides;    ///< the contact that is known already; feature none: none is
+  bool in_front = false;  ///< the finger's centre is: none from behind
 };
 
 /// The nearest of the contacts that patch `i` holds, one or several, as `rival` asks for; false: there is none.

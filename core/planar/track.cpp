@@ -20,7 +20,7 @@ constexpr double kFoldedStability = 0.1;
 
 class Tracker {
  public:
-  explicit Tracker(PlanarContext& context) : x_(context) {}
+  Tracker(PlanarContext& context, bool others_push) : x_(context), others_push_(others_push) {}
 
   PlanarTrack run(const PlanarKept& last) {
     const PlanarPlace& kept = last.place;
@@ -119,6 +119,13 @@ class Tracker {
     if (again.converged()) out_.contact = again;
   }
 
+  /// Whether a rival is touched as the tracked place is, so that both push. A finger whose centre is behind the one has
+  /// left at the other if that is in front of it.
+  bool pushes_beside_tracked(const PlanarContact& rival) const {
+    return others_push_ && !out_.unentered && depth_m(out_.contact) > 0.0 &&
+           !(out_.contact.height_m < 0.0 && rival.height_m >= 0.0);
+  }
+
   void hand_over() {
     const double mine = std::abs(out_.contact.height_m);
     PlanarContact rival;
@@ -126,6 +133,9 @@ class Tracker {
       return;
     // A first contact and one that was found again start at the deepest place.
     const bool anew = out_.event == TickEvent::first || found_again_;
+    if (!anew && pushes_beside_tracked(rival) &&
+        !(std::abs(rival.height_m) < mine - kTremor * x_.settings.switch_hysteresis_m))
+      return;
     const double tracked = out_.unentered ? 0.0 : depth_m(out_.contact);
     if (!anew && !was_entered(finger_step(), depth_m(rival), tracked)) return;
     if (!anew && tracked > 0.0 && !was_put_elsewhere(finger_step()) &&
@@ -138,11 +148,14 @@ class Tracker {
 
   PlanarContext& x_;
   PlanarTrack out_;
+  bool others_push_;
   bool found_again_ = false;
 };
 
 }  // namespace
 
-PlanarTrack track_planar(PlanarContext context, const PlanarKept& kept) { return Tracker(context).run(kept); }
+PlanarTrack track_planar(PlanarContext context, const PlanarKept& kept, bool others_push) {
+  return Tracker(context, others_push).run(kept);
+}
 
 }  // namespace tangent

@@ -23,7 +23,9 @@ struct PlanarKept {
 
 /// Each tick asks the index for the patches that could hold a place nearer than the tracked one by more than the
 /// hysteresis, the tracked one's own patch among them, and solves on those. One that the finger can't have entered from
-/// outside does not take over, nor does the far side of what it is in.
-PlanarTrack track_planar(PlanarContext context, const PlanarKept& kept);
+/// outside does not take over, nor does the far side of what it is in. `others_push`: touched places beside the tracked
+/// one push, too, so which of them it is matters to the display alone, and only one that is nearer by more than a
+/// tremor takes over.
+PlanarTrack track_planar(PlanarContext context, const PlanarKept& kept, bool others_push = false);
 
 }  // namespace tangent

@@ -61,7 +61,7 @@ struct ForceSettings {
   double velocity_cutoff_hz = 50.0;  ///< of the filter of the velocity that damping uses, see core/tick/rendering.h
   double limit_n = 8.5;              ///< the rendered force never exceeds this
   ForceSource source = ForceSource::method;
-  ForceContacts contacts = ForceContacts::all;  ///< of the smooth surface, 3D scenes
+  ForceContacts contacts = ForceContacts::all;  ///< of the smooth surface
   ForceBlend blend = ForceBlend::events;        ///< of force and display
   bool operator==(const ForceSettings&) const = default;
 };

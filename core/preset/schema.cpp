@@ -188,7 +188,7 @@ constexpr std::array kKeys{
     .option = "force-blend"}, kForceBlends),
   choice<kForce, &O::contacts>({.table = "force", .key = "contacts", .label = "Contacts",
     .doc = "Which of the places that the finger touches push: the deepest, as in the paper, or all, by the shortest way "
-           "out of every one. Of the smooth surface of 3D scenes.",
+           "out of every one. Of the smooth surface.",
     .read_by = kSmoothMethods, .option = "force-contacts"}, kForceContacts),
   choice<kForce, &O::source>({.table = "force", .key = "source", .label = "Source",
     .doc = "Which contact the force comes from: the method's own, the facets', the facets' with interpolated normals, "

@@ -24,7 +24,7 @@ Vec3 way_out_of(const TickContext& tick, const IterationResult& tracked, const T
   for (const TouchedContact& c : touched.all())
     if (pushes_beside(first, touched_plane(c.plane, c.contact), touched.with_walls, tolerance))
       planes.add({c.plane.normal, c.contact.penetration_m, 1.0});
-  return shortest_way_out(planes.all());
+  return planes.way_out();
 }
 
 /// `way_out` where there is one, else that of the tracked contact alone.
@@ -62,14 +62,7 @@ Vec3 last_way_out(ContactContext& context, const TickContext& tick, const Tracke
     if (pushes_beside(first, there, with_walls, context.settings.tolerance_m)) planes.add(plane_at(at));
     ++evaluations;
   }
-  return shortest_way_out(planes.all());
-}
-
-/// Whether the way out has leapt `before` -> now, by more than the finger's motion explains.
-bool has_leapt(const ContactContext& context, const Vec3& before, const Vec3& now) {
-  const Vec3 change = now - before;
-  const double explained = 2.0 * context.moved_m + context.hystereses_m(kLeapDepth);
-  return glm::dot(change, change) > explained * explained;
+  return planes.way_out();
 }
 
 /// How far the furthest point of the finger has come since the last tick: no depth changes by more. Of a finger that is
@@ -116,7 +109,8 @@ inline void find_smooth(const ContactScene& scene, StepCache& cache, const TickC
     way_out = way_out_of(tick, contact, cache.touched);
     planes.touched = plane_of_way_out(way_out, plane);
   }
-  if (may_leap && has_leapt(context, before, way_out_or_one(tick, contact, way_out)))
+  if (may_leap &&
+      has_leapt(before, way_out_or_one(tick, contact, way_out), context.moved_m, settings.switch_hysteresis_m))
     decided.event = TickEvent::switched;  // another set of places pushes
 }
 

@@ -4,6 +4,8 @@
 #include "core/finger/plane_contact.h"
 #include "core/planar/polygon_contact.h"
 #include "core/planar/track.h"
+#include "core/shading/way_out.h"
+#include "core/tick/planar_way_out.h"
 #include "core/tick/raw_contacts.h"
 #include "core/tick/rendering.h"
 
@@ -56,8 +58,9 @@ RenderPlane kept_plane(const TickContext& tick, const PlanarTrack& track) {
   return plane;
 }
 
-RenderPlane find_smooth(const PlanarCurve& curve, const TickContext& tick, const SolverSettings& settings,
-                        PlanarTrack& track) {
+/// `way_out`: of all places that are touched, where the preset asks for them and there are several; else zero.
+void find_smooth(const PlanarCurve& curve, const TickContext& tick, const SolverSettings& settings, PlanarTrack& track,
+                 TickPlanes& planes, Vec3& way_out) {
   const PlanarContext context{curve,
                               settings,
                               flat(tick.local.position),
@@ -65,10 +68,21 @@ RenderPlane find_smooth(const PlanarCurve& curve, const TickContext& tick, const
                               tick.trace,
                               0,
                               glm::length(finger_way(tick.pose.position, tick.t_s, tick.state).moved)};
-  track = track_planar(context, kept_of(curve, tick));
-  if (track.converged()) return kept_plane(tick, track);
-  tick.state.plane = plane_of(track.contact.place);
-  return last_converged_plane(tick);
+  const bool all = wants_touched(tick.preset);
+  track = track_planar(context, kept_of(curve, tick), all);
+  PlanarWayOut out;
+  if (all && track.converged()) out = find_planar_way_out(context, track, tick.state);
+  tick.state.touched = out.places;
+  way_out = out.way_out_m;
+  track.evaluations += out.evaluations;
+  if (out.leapt && track.event == TickEvent::none) track.event = TickEvent::switched;  // another set of places pushes
+  if (track.converged()) {
+    planes.smooth = kept_plane(tick, track);
+  } else {
+    tick.state.plane = plane_of(track.contact.place);
+    planes.smooth = last_converged_plane(tick);
+  }
+  planes.touched = plane_of_way_out(way_out, planes.smooth);
 }
 
 void describe_smooth(const PlanarTrack& track, const TickContext& tick, TickOutput& out) {
@@ -163,7 +177,7 @@ void find_planar_contacts(const PlanarCurve& curve, const TickContext& tick, Tic
     SolverSettings settings = preset.solver;
     if (!is_smooth(settings.method)) settings.method = Method::robust;
     PlanarTrack track;
-    planes.smooth = planes.touched = find_smooth(curve, tick, settings, track);
+    find_smooth(curve, tick, settings, track, planes, out.way_out_m);
     if (is_smooth(reported)) describe_smooth(track, tick, out);
   }
   if (wants_facet(preset)) {

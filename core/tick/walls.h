@@ -9,25 +9,9 @@
 #include "core/contact/decide/decide.h"
 #include "core/contact/nearest_triangles.h"
 #include "core/contact/touched.h"
-#include "core/shading/render.h"
-
-#include <array>
-#include <span>
+#include "core/tick/pushing_planes.h"
 
 namespace tangent {
-
-/// The planes that push together.
-class PushingPlanes {
- public:
-  void add(const RenderPlane& plane) {
-    if (count_ < planes_.size()) planes_[count_++] = plane;
-  }
-  std::span<const RenderPlane> all() const { return std::span(planes_).first(count_); }
-
- private:
-  std::array<RenderPlane, kMostTouched + 1> planes_;
-  std::size_t count_ = 0;
-};
 
 /// Whether walls can lack: in meshes with inner edges, where a round finger is in a place by over half its radius, or
 /// there were walls at the last tick, among those `kept`. `centre`: of the finger. Of other fingers it is not known.

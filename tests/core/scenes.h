@@ -30,6 +30,12 @@ inline ScenePtr scene_of(const PolygonMesh& mesh, const ContactMeshOptions& opti
   return *scene;
 }
 
+inline PlanarCurve curve_of(std::vector<Vec2> vertices, bool closed = false) {
+  auto curve = PlanarCurve::build({"test", std::move(vertices), closed});
+  REQUIRE_MESSAGE(curve.has_value(), (curve ? "" : curve.error().message()));
+  return std::move(*curve);
+}
+
 /// One triangle with file normals.
 inline PolygonMesh one_triangle(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& n) {
   PolygonMesh mesh;

@@ -1,20 +1,16 @@
 #include "core/planar/curve.h"
 #include "core/base/units.h"
 #include "core/lab/objects/arc.h"
+#include "tests/core/scenes.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
 using namespace tangent;
+using namespace tangent::test;
 
 namespace {
-
-PlanarCurve curve_of(std::vector<Vec2> vertices, bool closed = false) {
-  auto curve = PlanarCurve::build({"test", std::move(vertices), closed});
-  REQUIRE_MESSAGE(curve.has_value(), (curve ? "" : curve.error().message()));
-  return std::move(*curve);
-}
 
 constexpr LocalCentre kCentres[]{LocalCentre::bisectors, LocalCentre::midpoint};
 

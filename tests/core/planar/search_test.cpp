@@ -16,12 +16,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-PlanarCurve searched_curve(std::vector<Vec2> vertices, bool closed = false) {
-  auto curve = PlanarCurve::build({"test", std::move(vertices), closed});
-  REQUIRE_MESSAGE(curve.has_value(), (curve ? "" : curve.error().message()));
-  return std::move(*curve);
-}
-
 /// A star-shaped outline with bays, some vertices given twice; open ones lack a part.
 PlanarCurve random_outline(Random& random) {
   const int count = 3 + static_cast<int>(random.in(0.0, 60.0));
@@ -34,7 +28,7 @@ PlanarCurve random_outline(Random& random) {
     if (i > 0 && i + 1 < count && random.in(0.0, 1.0) < 0.2) v.push_back(v.back());
   }
   if (random.in(0.0, 1.0) < 0.5) std::reverse(v.begin(), v.end());
-  return searched_curve(v, closed);
+  return curve_of(v, closed);
 }
 
 /// Every patch is looked at, in order.
@@ -67,12 +61,12 @@ PlanarCurve fine_outline(int count, Radius radius) {
     const double angle = 2.0 * std::numbers::pi * i / count;
     v.emplace_back(radius(angle) * std::cos(angle), radius(angle) * std::sin(angle));
   }
-  return searched_curve(v);
+  return curve_of(v);
 }
 
 /// A notch of 100 degrees whose bottom is one patch. A finger of 20 mm whose centre is 22 mm up, over the middle,
 /// touches it on both sides.
-PlanarCurve notch() { return searched_curve({{-0.0230, 0.0193}, {0.0, 0.0}, {0.0230, 0.0193}}); }
+PlanarCurve notch() { return curve_of({{-0.0230, 0.0193}, {0.0, 0.0}, {0.0230, 0.0193}}); }
 
 }  // namespace
 
@@ -124,6 +118,33 @@ TEST_CASE("behind a curve of 100,000 vertices only what faces the finger is aske
   }
   CHECK(differ == 0);
   CHECK(most < 500);  // 48; of one that asked every patch near enough 95,000
+}
+
+TEST_CASE("a finger has passed every patch of the runs that the index skips, forwards and backwards") {
+  Random random(17);
+  int skipped = 0, not_passed = 0, asked = 0;
+  for (int outline = 0; outline < rounds(60); ++outline) {
+    const PlanarCurve curve = outline % 2 == 0 ? random_outline(random) : fine_outline(3000, [](double a) {
+      return 0.04 * (1.0 + 0.2 * std::sin(5.0 * a) + 0.001 * std::sin(300.0 * a));
+    });
+    for (int pose = 0; pose < 200; ++pose) {
+      const Vec2 at(random.in(-0.1, 0.1), random.in(-0.1, 0.1));
+      const std::uint32_t item = random.below(curve.patch_count());
+      const bool forwards = random.below(2) == 0;
+      const std::uint32_t next = curve.index().first_not_passed(item, forwards, at);
+      const std::uint32_t end = next != kNone ? next : forwards ? curve.patch_count() : kNone;
+      ++asked;
+      for (std::uint32_t i = item; i != end; forwards ? ++i : --i) {
+        ++skipped;
+        const CurvePatch& p = curve.patch(i);
+        not_passed += forwards ? !(ahead_at_start(p, at) > 0.0 && ahead_at_end(p, at) > 0.0)
+                               : !(ahead_at_start(p, at) < 0.0 && ahead_at_end(p, at) < 0.0);
+      }
+    }
+  }
+  MESSAGE(skipped << " patches skipped by " << asked << " questions");
+  CHECK(skipped > 20 * asked);
+  CHECK(not_passed == 0);
 }
 
 TEST_CASE("a finger at the centre of a circle of 100,000 vertices, which all face it, has an answer after 512") {
@@ -184,7 +205,7 @@ TEST_CASE("a ragged open outline of sharp, unequal patches holds a contact where
   for (int outline = 0; outline < 20; ++outline) {
     std::vector<Vec2> v;
     for (int i = 0; i <= 100; ++i) v.emplace_back(4e-4 * i, random.in(-8e-4, 8e-4));
-    const PlanarCurve curve = searched_curve(v);
+    const PlanarCurve curve = curve_of(v);
     for (int pose = 0; pose < kPoses / 20; ++pose) {
       const Vec2 at(random.in(-0.005, 0.045), random.in(-0.004, 0.004));
       const PlanarContext x{curve, SolverSettings{}, at - curve.origin(), 0.0, nullptr, 0};
@@ -197,7 +218,7 @@ TEST_CASE("a ragged open outline of sharp, unequal patches holds a contact where
 }
 
 TEST_CASE("between two equally near patches the lowest holds the contact") {
-  const PlanarCurve square = searched_curve(
+  const PlanarCurve square = curve_of(
       {{-1.0, -1.0}, {0.0, -1.0}, {1.0, -1.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}, {-1.0, 1.0}, {-1.0, 0.0}}, true);
   const PlanarContext x{square, SolverSettings{}, Vec2(0.0), 0.0, nullptr, 0};
   PlanarContact best;
@@ -229,6 +250,7 @@ TEST_CASE("a patch of a notch holds two contacts: both are found") {
 TEST_CASE("in a notch of one patch the finger rests on the deeper side, and changing sides is a switch") {
   const PlanarCurve curve = notch();
   Preset preset = sphere_preset(0.020, Method::robust);
+  preset.force.contacts = ForceContacts::deepest;
   TickState state;
   int switches = 0, unmarked = 0, wrong_side = 0;
   double worst_m = 0.0, last_force = 0.0;
@@ -254,7 +276,7 @@ TEST_CASE("in a notch of one patch the finger rests on the deeper side, and chan
 }
 
 TEST_CASE("a finger that passes hundreds of patches in a tick goes on from its contact: it is not lost") {
-  const PlanarCurve circle = searched_curve(make_regular_polygon(100000, 0.05, ArcPlacement::tangent).vertices, true);
+  const PlanarCurve circle = curve_of(make_regular_polygon(100000, 0.05, ArcPlacement::tangent).vertices, true);
   const Preset preset = sphere_preset(0.020, Method::robust);
   TickState state;
   int events = 0, lines = 0;
@@ -274,7 +296,7 @@ TEST_CASE("a finger that passes hundreds of patches in a tick goes on from its c
 
 TEST_CASE("round a tight convex bend the normal may turn far in a tick without an event") {
   // A rounded corner of 90 degrees in one patch of 1 mm.
-  const PlanarCurve curve = searched_curve({{-0.05, 0.0}, {-0.001, 0.0}, {0.0, 0.0}, {0.0, -0.001}, {0.0, -0.05}});
+  const PlanarCurve curve = curve_of({{-0.05, 0.0}, {-0.001, 0.0}, {0.0, 0.0}, {0.0, -0.001}, {0.0, -0.05}});
   const Preset preset = sphere_preset(0.020, Method::robust);
   TickState state;
   double turned = 0.0;

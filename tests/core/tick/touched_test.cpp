@@ -168,6 +168,27 @@ TEST_CASE("round the corner and back the force of all places does no work, that 
   CHECK(deepest > 1e-3);
 }
 
+TEST_CASE("exactly in the middle of a slot that is too narrow for the finger neither wall pushes") {
+  PolygonMesh mesh;
+  mesh.name = "slot";
+  for (const double x : {-0.015, 0.015}) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const Vec2& at : {Vec2(-0.05, -0.05), {0.05, -0.05}, {0.05, 0.05}, {-0.05, 0.05}})
+      mesh.positions.emplace_back(x, x < 0.0 ? at.x : -at.x, at.y);
+    mesh.add_face({first, first + 1, first + 2});
+    mesh.add_face({first, first + 2, first + 3});
+  }
+  Stepper stepper(scene_of(mesh));
+  const Preset preset = sphere_preset(0.0155, Method::robust);
+  TickState state;
+  for (int i = -20; i <= 20; ++i) {
+    const double x = 1e-6 * i;
+    const TickOutput out = stepper.step(preset, at_position(1e-3 * i, {x, 0.001, 0.002}), state);
+    CAPTURE(i);
+    CHECK(glm::distance(out.decided_force_n, Vec3(-800.0 * x, 0.0, 0.0)) < 1e-6);
+  }
+}
+
 TEST_CASE("where one place is touched, all of them are that one, bit for bit") {
   for (const ScenePtr& scene : {scene_of(make_icosphere(0.040, 3)), scene_of(*generate_mesh("sphere"))}) {
     Stepper one(scene), every(scene);
