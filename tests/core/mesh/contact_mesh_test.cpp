@@ -6,6 +6,7 @@
 #include "core/mesh/content_hash.h"
 #include "tests/core/mesh/contact_mesh_checks.h"
 #include "tests/core/mesh/sample_meshes.h"
+#include "tests/support/approx.h"
 #include "tests/support/meshes.h"
 
 #include <doctest/doctest.h>
@@ -18,6 +19,7 @@
 using namespace tangent;
 using namespace tangent::sample;
 using namespace tangent::testing;
+using tangent::test::approx;
 
 TEST_CASE("cube of unwelded corners becomes eight vertices, closed") {
   const ContactMesh m = build(sample::unwelded(sample::cube()));
@@ -115,8 +117,8 @@ TEST_CASE("origin is the middle of the box of what can be used - fit puts it at 
   fit.fit_m = 0.08;
   m = build(source, fit);
   CHECK(m.origin() == Vec3(0.0));
-  CHECK(m.scale_applied() == doctest::Approx(0.08));
-  CHECK(m.bounds().size().x == doctest::Approx(0.08).epsilon(1e-15));
+  CHECK(m.scale_applied() == approx(0.08));
+  CHECK(m.bounds().size().x == approx(0.08).epsilon(1e-15));
 }
 
 TEST_CASE("same topology and normals in micrometres, millimetres, kilometres, and a kilometre away") {
@@ -260,6 +262,11 @@ TEST_CASE("a mesh is the same bits whoever does its halves") {
     check(sample::soup(seed, 4 + static_cast<int>(seed % 9), 60), computed());
   check(make_icosphere(0.040, 3), computed());
   check(make_icosphere(0.040, 3), {});
+  PolygonMesh one;  // whose first half is empty
+  one.positions = {{-0.04, -0.04, 0.0}, {0.04, -0.04, 0.0}, {0.0, 0.04, 0.0}};
+  one.add_face({0, 1, 2});
+  check(one, computed());
+  REQUIRE(ContactMesh::build(one, computed()));
 }
 
 TEST_CASE("links and creases of messy meshes are those that a walk from triangle to triangle found") {
