@@ -31,8 +31,8 @@ double least_radius_m(const CurvePatch& p) {
 
 class PatchSearch {
  public:
-  PatchSearch(const PlanarContext& context, std::uint32_t i, int& evaluations)
-      : x_(context), i_(i), p_(context.curve.patch(i)), evaluations_(evaluations) {}
+  PatchSearch(const PlanarContext& context, std::uint32_t i, PlanarWork& work)
+      : x_(context), i_(i), p_(context.curve.patch(i)), work_(work) {}
 
   bool run(const PlanarRival& rival, PlanarContact& best) {
     double below = rival.below_m;
@@ -51,12 +51,20 @@ class PatchSearch {
     if (p_.joint_after != CurveJoint::smooth && end_contact(x_, i_, true, corner)) consider(corner);
     if (p_.joint_before == CurveJoint::end && end_contact(x_, i_, false, corner)) consider(corner);
     const bool several = may_hold_several();
-    if (!several && rival.besides.feature == Feature::face && rival.besides.patch == i_) return found;
-    for_brackets(several, [&](double low, double high) { consider(solve_between(low, high)); });
+    if (!several && is_known_here(rival)) return found;
+    const bool known_here = is_known_here(rival);
+    for_brackets(several, [&](double low, double high) {
+      if (known_here && low <= rival.besides.t && rival.besides.t <= high) return;
+      consider(solve_between(low, high));
+    });
     return found;
   }
 
  private:
+  bool is_known_here(const PlanarRival& rival) const {
+    return rival.besides.feature == Feature::face && rival.besides.patch == i_;
+  }
+
   /// Parts of the patch where the contact passes from ahead of the line's place to behind it: stable contacts.
   template <class Bracket>
   void for_brackets(bool several, Bracket bracket) {
@@ -90,7 +98,7 @@ class PatchSearch {
 
   double residual(double t) {
     const LineSample s = x_.curve.sample(i_, x_.settings.local_centre, t);
-    ++evaluations_;
+    ++work_.looks;
     const Vec2 contact = s.foot + glm::dot(x_.centre - s.foot, s.direction) * s.direction;
     return glm::dot(contact - s.place, s.direction);
   }
@@ -103,7 +111,7 @@ class PatchSearch {
     for (int halvings = 0; halvings < 48; ++halvings) {
       const double middle = 0.5 * (low + high);
       contact = follow(quiet, {Feature::face, i_, middle, {}, {}}, false, 6);
-      evaluations_ += contact.evaluations;
+      work_.evaluations += contact.evaluations;
       const PlanarPlace& at = contact.place;
       const bool inside = at.feature == Feature::face && at.patch == i_ && at.t >= low && at.t <= high;
       if (contact.converged() && inside) return contact;
@@ -116,33 +124,34 @@ class PatchSearch {
   const PlanarContext& x_;
   std::uint32_t i_;
   const CurvePatch& p_;
-  int& evaluations_;
+  PlanarWork& work_;
 };
 
 }  // namespace
 
 bool nearest_on_patch(const PlanarContext& context, std::uint32_t i, const PlanarRival& rival, PlanarContact& best,
-                      int& evaluations) {
-  return PatchSearch(context, i, evaluations).run(rival, best);
+                      PlanarWork& work) {
+  return PatchSearch(context, i, work).run(rival, best);
 }
 
-bool nearest_contact(const PlanarContext& x, PlanarRival rival, PlanarContact& best, int& evaluations) {
+bool nearest_contact(const PlanarContext& x, PlanarRival rival, PlanarContact& best, PlanarWork& work) {
   if (!(rival.below_m > 0.0)) return false;
   std::uint32_t holder = kNone;
   double bound2 = rival.below_m * rival.below_m;
   int looks = 0;
-  const int lines = evaluations;
+  const auto lines = [&] { return work.evaluations + work.looks; };
+  const int lines_before = lines();
   x.curve.index().each_facing(x.centre, bound2, [&](std::uint32_t i) {
     const CurvePatch& p = x.curve.patch(i);
     if (p.box.distance2(x.centre) > bound2) return;
     if (x.curve.distance_bound_m(i, x.settings.local_centre, x.centre) > rival.below_m) return;
-    if (++looks > kMostLooks || evaluations - lines > kMostLines) {
+    if (++looks > kMostLooks || lines() - lines_before > kMostLines) {
       bound2 = -1.0;  // looks no further
       return;
     }
     PlanarRival here = rival;
     if (holder != kNone && i < holder) here.below_m = std::nextafter(rival.below_m, 2.0 * rival.below_m);
-    if (!nearest_on_patch(x, i, here, best, evaluations)) return;
+    if (!nearest_on_patch(x, i, here, best, work)) return;
     holder = i;
     rival.below_m = std::abs(best.height_m);
     bound2 = rival.below_m * rival.below_m;

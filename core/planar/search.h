@@ -13,14 +13,20 @@ struct PlanarRival {
   bool in_front = false;  ///< the finger's centre is: none from behind
 };
 
-/// The nearest of the contacts that patch `i` holds, one or several, as `rival` asks for; false: there is none.
-/// `evaluations` grows by the lines looked at.
+/// What a search has come to.
+struct PlanarWork {
+  int evaluations = 0;  ///< lines that contacts were iterated with
+  int looks = 0;        ///< places of hollow patches looked at to tell in which parts there may be one
+};
+
+/// The nearest of the contacts that patch `i` holds, one or several, as `rival` asks for; false: there is none. `work`
+/// grows.
 bool nearest_on_patch(const PlanarContext& context, std::uint32_t i, const PlanarRival& rival, PlanarContact& best,
-                      int& evaluations);
+                      PlanarWork& work);
 
 /// The nearest of all, of equally near ones that of the lowest patch. Asks the patches that are near enough and face
 /// the finger; of more than 512 of them, the first that the index comes to.
-bool nearest_contact(const PlanarContext& context, PlanarRival rival, PlanarContact& best, int& evaluations);
+bool nearest_contact(const PlanarContext& context, PlanarRival rival, PlanarContact& best, PlanarWork& work);
 
 /// The patch that is nearest to the finger's centre, judged by its ends and its middle, and how near these are. Where
 /// more than 4,096 are as near but for a few segments' lengths, one of those.

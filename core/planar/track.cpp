@@ -106,9 +106,16 @@ class Tracker {
     if (!robust || out_.converged()) return;
     // The place of the curve that is nearest holds a contact, as a rule.
     PlanarContact best;
-    if (nearest_contact(x_, {distance + x_.settings.tolerance_m, {}}, best, out_.evaluations) ||
-        nearest_contact(x_, {std::numeric_limits<double>::infinity(), {}}, best, out_.evaluations))
+    if (look_for({distance + x_.settings.tolerance_m, {}}, best) ||
+        look_for({std::numeric_limits<double>::infinity(), {}}, best))
       take_found(best);
+  }
+
+  bool look_for(const PlanarRival& rival, PlanarContact& best) {
+    PlanarWork work;
+    const bool found = nearest_contact(x_, rival, best, work);
+    out_.evaluations += work.evaluations;
+    return found;
   }
 
   void take_found(const PlanarContact& best) {
@@ -129,8 +136,7 @@ class Tracker {
   void hand_over() {
     const double mine = std::abs(out_.contact.height_m);
     PlanarContact rival;
-    if (!nearest_contact(x_, {mine - x_.settings.switch_hysteresis_m, out_.contact.place}, rival, out_.evaluations))
-      return;
+    if (!look_for({mine - x_.settings.switch_hysteresis_m, out_.contact.place}, rival)) return;
     // A first contact and one that was found again start at the deepest place.
     const bool anew = out_.event == TickEvent::first || found_again_;
     if (!anew && pushes_beside_tracked(rival) &&

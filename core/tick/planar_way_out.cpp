@@ -86,7 +86,7 @@ class LeadingOut {
     lead(last_planes.way_out());
     for (const PlanarPlace& place : last.all()) {
       const PlanarContact now = follow(led_out_, place, true, kFollowLines);
-      evaluations_ += now.evaluations;
+      work_.evaluations += now.evaluations;
       if (now.converged() && now.stability > 0.0 && now.height_m >= 0.0) offer(now.place);
     }
   }
@@ -100,7 +100,7 @@ class LeadingOut {
       lead(planes_.way_out());
       // Led out of the tracked place alone, the circle touches it where it was.
       rival.besides = track_.unentered || count_ == 0 ? track_.contact.place : PlanarPlace{};
-      if (count_ == kMostTouched || !nearest_contact(led_out_, rival, found, evaluations_)) break;
+      if (count_ == kMostTouched || !nearest_contact(led_out_, rival, found, work_)) break;
       const double depth = plane_at(x_, found.place.point, found.place.normal).penetration_m;
       if (track_.event != TickEvent::first && !was_entered(step, depth, known_m)) break;
       if (!offer(found.place)) break;
@@ -109,7 +109,7 @@ class LeadingOut {
 
   const PushingPlanes& planes() const { return planes_; }
   const Vec3& way() const { return way_; }
-  int evaluations() const { return evaluations_; }
+  int evaluations() const { return work_.evaluations; }
   /// Those that the circle, led out, touches.
   TouchedPlaces touched() const {
     TouchedPlaces kept;
@@ -148,7 +148,7 @@ class LeadingOut {
   PushingPlanes planes_;
   std::size_t count_ = 0;
   std::array<PlanarPlace, kMostTouched> places_;
-  int evaluations_ = 0;
+  PlanarWork work_;
 };
 
 }  // namespace

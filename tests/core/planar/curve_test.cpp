@@ -2,6 +2,7 @@
 #include "core/base/units.h"
 #include "core/lab/objects/arc.h"
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -34,14 +35,14 @@ TEST_CASE("a place on a tangent line has its t as parameter, and derivatives mat
     for (std::uint32_t i = 0; i < curve.patch_count(); ++i) {
       for (const double t : {0.0, 0.2, 0.5, 0.9, 1.0}) {
         const LineSample s = curve.sample(i, centre, t);
-        CHECK(curve.parameter(i, centre, s.place) == doctest::Approx(t).epsilon(1e-12).scale(1.0));
+        CHECK(curve.parameter(i, centre, s.place) == approx(t).epsilon(1e-12).scale(1.0));
         CHECK(std::abs(cross(s.place - s.foot, s.direction)) < 1e-16);
         const double d = 1e-6;
         const LineSample before = curve.sample(i, centre, t - d), after = curve.sample(i, centre, t + d);
         CHECK(glm::length((after.place - before.place) / (2 * d) - s.place_t) < 1e-8);
         CHECK(glm::length((after.foot - before.foot) / (2 * d) - s.foot_t) < 1e-8);
         CHECK(glm::length((after.direction - before.direction) / (2 * d) - s.direction_t) < 1e-7);
-        CHECK(curve.parameter_rate(i, centre, s.place, s.place_t) == doctest::Approx(1.0).epsilon(1e-9));
+        CHECK(curve.parameter_rate(i, centre, s.place, s.place_t) == approx(1.0).epsilon(1e-9));
       }
     }
   }
@@ -78,12 +79,11 @@ TEST_CASE("the bisectors' centre of equal segments is the centre of the circle t
 }
 
 TEST_CASE("the finger's side: left of an open polygon, outside of a closed one whichever way it turns") {
-  CHECK(curve_of({{0, 0}, {0.1, 0}, {0.2, 0.01}}).sample(0, LocalCentre::bisectors, 0.5).normal.y ==
-        doctest::Approx(1.0));
+  CHECK(curve_of({{0, 0}, {0.1, 0}, {0.2, 0.01}}).sample(0, LocalCentre::bisectors, 0.5).normal.y == approx(1.0));
   std::vector<Vec2> square{{0, 0}, {0.1, 0}, {0.1, 0.1}, {0, 0.1}};
-  CHECK(curve_of(square, true).sample(0, LocalCentre::bisectors, 1.0).normal.y == doctest::Approx(-1.0));
+  CHECK(curve_of(square, true).sample(0, LocalCentre::bisectors, 1.0).normal.y == approx(-1.0));
   std::reverse(square.begin(), square.end());
-  CHECK(curve_of(square, true).sample(2, LocalCentre::bisectors, 1.0).normal.y == doctest::Approx(-1.0));
+  CHECK(curve_of(square, true).sample(2, LocalCentre::bisectors, 1.0).normal.y == approx(-1.0));
 }
 
 TEST_CASE("a vertex given twice leaves straight half segments and a corner between them") {

@@ -5,6 +5,7 @@
 #include "core/lab/objects/arc.h"
 #include "core/tick/step.h"
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 
 #include <limits>
 
@@ -142,8 +143,8 @@ TEST_CASE("segments have the exact arc's ends, touch it where they should, and c
         farthest = std::max(farthest, glm::length(v[i]));
       }
       const double corner = placement == ArcPlacement::tangent ? kArcRadius / std::cos(0.5 * turn) : kArcRadius;
-      CHECK(farthest == doctest::Approx(corner).epsilon(1e-12));
-      if (placement == ArcPlacement::inscribed) CHECK(nearest == doctest::Approx(kArcRadius).epsilon(1e-12));
+      CHECK(farthest == approx(corner).epsilon(1e-12));
+      if (placement == ArcPlacement::inscribed) CHECK(nearest == approx(kArcRadius).epsilon(1e-12));
       // The finger's height over the facets is off by no more than the facets are from the circle.
       Preset preset = arc_preset();
       set_condition(preset, *find_condition("C1"));

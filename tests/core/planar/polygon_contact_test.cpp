@@ -2,6 +2,7 @@
 #include "core/planar/polygon_contact.h"
 #include "core/tick/step.h"
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 
 #include <numbers>
 
@@ -34,7 +35,7 @@ TEST_CASE(
   TickOutput out = once(curve, Method::facet, foot + 0.019 * normal);
   CHECK(glm::length(out.contact - foot) < 1e-15);
   CHECK(glm::length(out.normal - normal) < 1e-12);
-  CHECK(out.penetration_m == doctest::Approx(0.001));
+  CHECK(out.penetration_m == approx(0.001));
   CHECK(out.status == TickStatus::face);
 
   out = once(curve, Method::facet, {0.003, 0.019, 0.0});
@@ -44,7 +45,7 @@ TEST_CASE(
 
   out = once(curve, Method::facet, foot - 0.002 * normal, 0.0);
   CHECK(glm::length(out.normal - normal) < 1e-9);
-  CHECK(out.penetration_m == doctest::Approx(0.002));
+  CHECK(out.penetration_m == approx(0.002));
 }
 
 TEST_CASE("2D force shading: the facet's place and depth, the vertices' normals interpolated along the segment") {
@@ -70,7 +71,7 @@ TEST_CASE("2D two-pass: the spring leans with the shaded plane while the proxy s
   const Vec3 shaded = unit((1.0 - part) * Vec3(0.0, 1.0, 0.0) + part * slope);
   const double s = glm::dot(shaded, along), c = glm::dot(shaded, slope);
   const Vec3 spring = depth * (s * c * along + slope);
-  CHECK(out.penetration_m == doctest::Approx(glm::length(spring)).epsilon(1e-9));
+  CHECK(out.penetration_m == approx(glm::length(spring)).epsilon(1e-9));
   CHECK(glm::length(out.normal - unit(spring)) < 1e-7);
   CHECK(glm::length(out.contact - (foot + depth * s * c * along)) < 1e-9);
   CHECK(out.cld_m == -0.008);  // the segment leans 45 degrees: the display is at its stop

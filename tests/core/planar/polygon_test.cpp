@@ -1,5 +1,6 @@
 #include "core/io/polygon_io.h"
 #include "core/lab/objects/arc.h"
+#include "tests/support/approx.h"
 #include "tests/support/temp_folder.h"
 
 #include <doctest/doctest.h>
@@ -9,6 +10,7 @@
 #include <string>
 
 using namespace tangent;
+using namespace tangent::test;
 
 namespace {
 
@@ -118,12 +120,12 @@ TEST_CASE("the paper's arc: facets touch it at their midpoints, or stand on it w
   CHECK(tangent_arc.vertices.size() == 6);
   for (std::size_t i = 0; i < 5; ++i)
     CHECK(glm::length(0.5 * (tangent_arc.vertices[i] + tangent_arc.vertices[i + 1])) ==
-          doctest::Approx(kPaperArcRadius).epsilon(1e-14));
+          approx(kPaperArcRadius).epsilon(1e-14));
   for (const Vec2& v : make_paper_arc(5, ArcPlacement::inscribed, 1).vertices)
-    CHECK(glm::length(v) == doctest::Approx(kPaperArcRadius).epsilon(1e-14));
+    CHECK(glm::length(v) == approx(kPaperArcRadius).epsilon(1e-14));
   CHECK(kPaperArcRadius == 0.100);
-  CHECK(kPaperArcRad * kPaperArcRadius == doctest::Approx(0.0902));  // the paper: approximately 90 mm of travel
+  CHECK(kPaperArcRad * kPaperArcRadius == approx(0.0902));  // the paper: approximately 90 mm of travel
   // The paper: 16.3 segments are 3.38 degrees, 15.6 are 3.54.
-  CHECK(kPaperArcRad / 15.3 * 180.0 / 3.14159265358979 == doctest::Approx(3.38).epsilon(2e-3));
-  CHECK(facet_turn_rad(16, ArcPlacement::tangent) == doctest::Approx(kPaperArcRad / 15));
+  CHECK(kPaperArcRad / 15.3 * 180.0 / 3.14159265358979 == approx(3.38).epsilon(2e-3));
+  CHECK(facet_turn_rad(16, ArcPlacement::tangent) == approx(kPaperArcRad / 15));
 }

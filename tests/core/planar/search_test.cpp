@@ -5,6 +5,7 @@
 #include "core/planar/track.h"
 #include "core/tick/step.h"
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 
 #include <limits>
 #include <numbers>
@@ -31,12 +32,14 @@ PlanarCurve random_outline(Random& random) {
   return curve_of(v, closed);
 }
 
+int lines_of(const PlanarWork& work) { return work.evaluations + work.looks; }
+
 /// Every patch is looked at, in order.
 bool scan(const PlanarContext& x, PlanarRival rival, PlanarContact& best) {
   bool found = false;
-  int evaluations = 0;
+  PlanarWork work;
   for (std::uint32_t i = 0; i < x.curve.patch_count(); ++i)
-    while (nearest_on_patch(x, i, rival, best, evaluations)) found = true, rival.below_m = std::abs(best.height_m);
+    while (nearest_on_patch(x, i, rival, best, work)) found = true, rival.below_m = std::abs(best.height_m);
   return found;
 }
 
@@ -80,8 +83,8 @@ TEST_CASE("the index finds the contact that a scan of all patches finds, over ra
       const PlanarContext x{curve, SolverSettings{}, at - curve.origin(), 0.020, nullptr, 0};
       PlanarRival rival{random.in(0.0, 1.0) < 0.5 ? kInfinity : random.in(0.0, 0.05), {}};
       PlanarContact fast, slow;
-      int evaluations = 0;
-      const bool found = nearest_contact(x, rival, fast, evaluations), there = scan(x, rival, slow);
+      PlanarWork work;
+      const bool found = nearest_contact(x, rival, fast, work), there = scan(x, rival, slow);
       differ += found != there;
       if (!found || !there) continue;
       ++contacts;
@@ -91,7 +94,7 @@ TEST_CASE("the index finds the contact that a scan of all patches finds, over ra
       // And another than that one, if there is.
       rival = {0.1, fast.place};
       PlanarContact fast_other, slow_other;
-      const bool other = nearest_contact(x, rival, fast_other, evaluations);
+      const bool other = nearest_contact(x, rival, fast_other, work);
       differ += other != scan(x, rival, slow_other);
       if (other) differ += fast_other.height_m != slow_other.height_m;
     }
@@ -110,9 +113,9 @@ TEST_CASE("behind a curve of 100,000 vertices only what faces the finger is aske
     const Vec2 at(r * std::cos(angle), r * std::sin(angle));
     const PlanarContext x{curve, SolverSettings{}, at - curve.origin(), 0.020, nullptr, 0};
     PlanarContact fast, slow;
-    int evaluations = 0;
-    const bool found = nearest_contact(x, {kInfinity, {}}, fast, evaluations);
-    most = std::max(most, evaluations);
+    PlanarWork work;
+    const bool found = nearest_contact(x, {kInfinity, {}}, fast, work);
+    most = std::max(most, lines_of(work));
     const bool there = scan(x, {kInfinity, {}}, slow);
     differ += found != there || (found && (fast.place.patch != slow.place.patch || fast.height_m != slow.height_m));
   }
@@ -152,11 +155,11 @@ TEST_CASE("a finger at the centre of a circle of 100,000 vertices, which all fac
   for (const double aside : {0.0, 1e-9, 1e-7, 1e-6, 1e-5, 1e-4}) {
     const PlanarContext x{curve, SolverSettings{}, Vec2(aside, 0.0) - curve.origin(), 0.0395, nullptr, 0};
     PlanarContact best;
-    int evaluations = 0;
+    PlanarWork work;
     CAPTURE(aside);
-    if (nearest_contact(x, {kInfinity, {}}, best, evaluations))
-      CHECK(std::abs(best.height_m) == doctest::Approx(0.04 - aside).epsilon(1e-9));
-    CHECK(evaluations < 17000);
+    if (nearest_contact(x, {kInfinity, {}}, best, work))
+      CHECK(std::abs(best.height_m) == approx(0.04 - aside).epsilon(1e-9));
+    CHECK(lines_of(work) < 17000);
     double distance = 0.0;
     nearest_patch(x, distance);
     CHECK(std::abs(distance - (0.04 - aside)) < 2e-5);  // 8 segments
@@ -200,7 +203,8 @@ TEST_CASE("the polygon's nearest segment and its obstacles are those of a scan, 
 
 TEST_CASE("a ragged open outline of sharp, unequal patches holds a contact wherever the finger is") {
   Random random(21);
-  int without = 0, lines = 0;
+  int without = 0;
+  PlanarWork work;
   constexpr int kPoses = 4000;
   for (int outline = 0; outline < 20; ++outline) {
     std::vector<Vec2> v;
@@ -210,11 +214,11 @@ TEST_CASE("a ragged open outline of sharp, unequal patches holds a contact where
       const Vec2 at(random.in(-0.005, 0.045), random.in(-0.004, 0.004));
       const PlanarContext x{curve, SolverSettings{}, at - curve.origin(), 0.0, nullptr, 0};
       PlanarContact best;
-      without += !nearest_contact(x, {kInfinity, {}}, best, lines);
+      without += !nearest_contact(x, {kInfinity, {}}, best, work);
     }
   }
   CHECK(without == 0);
-  CHECK(lines < 30 * kPoses);
+  CHECK(lines_of(work) < 30 * kPoses);
 }
 
 TEST_CASE("between two equally near patches the lowest holds the contact") {
@@ -222,8 +226,8 @@ TEST_CASE("between two equally near patches the lowest holds the contact") {
       {{-1.0, -1.0}, {0.0, -1.0}, {1.0, -1.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}, {-1.0, 1.0}, {-1.0, 0.0}}, true);
   const PlanarContext x{square, SolverSettings{}, Vec2(0.0), 0.0, nullptr, 0};
   PlanarContact best;
-  int evaluations = 0;
-  REQUIRE(nearest_contact(x, {2.0, {}}, best, evaluations));
+  PlanarWork work;
+  REQUIRE(nearest_contact(x, {2.0, {}}, best, work));
   CHECK(best.place.patch == 1);
   double distance = 0.0;
   CHECK(nearest_patch(x, distance) == 1);
@@ -236,9 +240,9 @@ TEST_CASE("a patch of a notch holds two contacts: both are found") {
   for (const double aside : {0.0, 5e-5, -1e-4, 1.5e-4}) {
     const PlanarContext x{curve, SolverSettings{}, bottom + Vec2(aside, 0.022), 0.020, nullptr, 0};
     PlanarContact deep, other;
-    int evaluations = 0;
-    REQUIRE(nearest_on_patch(x, 1, {kInfinity, {}}, deep, evaluations));
-    REQUIRE(nearest_on_patch(x, 1, {kInfinity, deep.place}, other, evaluations));
+    PlanarWork work;
+    REQUIRE(nearest_on_patch(x, 1, {kInfinity, {}}, deep, work));
+    REQUIRE(nearest_on_patch(x, 1, {kInfinity, deep.place}, other, work));
     CAPTURE(aside);
     CHECK(std::abs(deep.place.t + other.place.t - 1.0) < 0.5);
     CHECK(std::abs(deep.place.t - other.place.t) > 0.1);

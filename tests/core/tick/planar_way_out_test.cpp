@@ -196,9 +196,9 @@ TEST_CASE("2D: over outlines made at random no change that the motion does not e
       Vec2 centre = curve->vertex(0) * 2.0;
       const auto place = [&](int) {
         PlanarContact nearest;
-        int evaluations = 0;
+        PlanarWork work;
         const PlanarContext x{*curve, SolverSettings{}, centre, radius};
-        REQUIRE(nearest_contact(x, {1.0, {}, true}, nearest, evaluations));
+        REQUIRE(nearest_contact(x, {1.0, {}, true}, nearest, work));
         const Vec2 normal = nearest.place.normal;
         const Vec2 pressed = nearest.place.point + (radius - 0.001) * normal;
         centre = pressed + 1e-4 * Vec2(normal.y, -normal.x);
