@@ -1,5 +1,6 @@
 #include "devices/device_set.h"
 #include "devices/found_device.h"
+#include "tests/support/approx.h"
 #include "tests/support/paths.h"
 #include "tests/support/temp_folder.h"
 
@@ -11,6 +12,7 @@
 #include <map>
 
 using namespace tangent;
+using namespace tangent::test;
 
 TEST_CASE("any force device goes with any contact display, and each says what it can do") {
   for (const std::string& force : force_device_names()) {
@@ -31,7 +33,7 @@ TEST_CASE("any force device goes with any contact display, and each says what it
           CHECK(can.position_resolution_m == (force == "ideal" ? 0.0 : 0.03e-3));
         }
       }
-      if (set->display) CHECK(set->display->capabilities().travel_m == doctest::Approx(0.02));
+      if (set->display) CHECK(set->display->capabilities().travel_m == approx(0.02));
     }
   }
 }

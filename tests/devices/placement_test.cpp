@@ -1,4 +1,5 @@
 #include "devices/placement.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -9,6 +10,7 @@
 #include <random>
 
 using namespace tangent;
+using namespace tangent::test;
 
 namespace {
 
@@ -38,7 +40,7 @@ TEST_CASE("a place of the device and its place in the scene are each other's") {
     CHECK(near(p.velocity_to_device(p.velocity_to_scene(v)), v, size));
     CHECK(near(p.force_to_scene(p.force_to_device(f)), f, size));
     const Quat q = draw.rotation(), back = p.orientation_to_device(p.orientation_to_scene(q));
-    CHECK(std::abs(glm::dot(q, back)) == doctest::Approx(1.0).epsilon(1e-14));
+    CHECK(std::abs(glm::dot(q, back)) == approx(1.0).epsilon(1e-14));
   }
 }
 
@@ -64,7 +66,7 @@ TEST_CASE("power in the scene is the scale times that at the device, work of a c
     const Vec3 v = draw.vector(), f = draw.vector();
     const double in_scene = glm::dot(f, p.velocity_to_scene(v)), at_device = glm::dot(p.force_to_device(f), v);
     CHECK(std::abs(in_scene - p.scale * at_device) <= 1e-14 * (1.0 + p.scale));
-    CHECK(glm::length(p.force_to_device(f)) == doctest::Approx(glm::length(f)).epsilon(1e-14));
+    CHECK(glm::length(p.force_to_device(f)) == approx(glm::length(f)).epsilon(1e-14));
   }
 }
 
@@ -119,9 +121,9 @@ TEST_CASE("a fitted scene fills its share of the tightest axis, and no more of t
     double fullest = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
       fullest = std::max(fullest, reached.max[axis] / workspace[axis]);
-      CHECK(reached.max[axis] == doctest::Approx(-reached.min[axis]).epsilon(1e-9));
+      CHECK(reached.max[axis] == approx(-reached.min[axis]).epsilon(1e-9));
     }
-    CHECK(fullest == doctest::Approx(0.9).epsilon(1e-9));
+    CHECK(fullest == approx(0.9).epsilon(1e-9));
     CHECK(near(p.to_device(scene.centre()), Vec3(0.0), 1.0));
     CHECK(check_placement(p));
   }
@@ -132,7 +134,7 @@ TEST_CASE("a workspace without limits leaves the scene's size alone") {
   scene.include(Vec3(-1.0));
   scene.include(Vec3(3.0));
   CHECK(fitted(scene, 0.02, Vec3(0.0)).scale == 1.0);
-  CHECK(fitted(scene, 0.0, Vec3(0.0, 0.5, 0.0), {1, 0, 0, 0}, 1.0).scale == doctest::Approx(4.0));
+  CHECK(fitted(scene, 0.0, Vec3(0.0, 0.5, 0.0), {1, 0, 0, 0}, 1.0).scale == approx(4.0));
 }
 
 TEST_CASE("the clutch keeps the finger where it is in the scene") {

@@ -1,5 +1,6 @@
 #include "core/base/triangle.h"
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -15,7 +16,7 @@ TEST_CASE("the closest point of a triangle is no further than any sampled one, a
     CHECK(p.v >= 0.0);
     CHECK(p.u + p.v <= 1.0 + 1e-15);
     CHECK(glm::length(p.point - (a + p.u * (b - a) + p.v * (c - a))) <= 1e-15);
-    CHECK(p.distance2 == doctest::Approx(glm::dot(q - p.point, q - p.point)).epsilon(1e-14));
+    CHECK(p.distance2 == approx(glm::dot(q - p.point, q - p.point)).epsilon(1e-14));
     for (int k = 0; k < 100; ++k) {
       const Vec2 uv = random.barycentric();
       const Vec3 d = q - (a + uv.x * (b - a) + uv.y * (c - a));
@@ -57,5 +58,5 @@ TEST_CASE("degenerate triangles give a point of theirs") {
 TEST_CASE("a needle of aspect 1e9 keeps the distance to its axis") {
   const Vec3 a(0, 0, 0), b(1, 0, 0), c(0.5, 1e-9, 0);
   const TrianglePoint p = closest_point_on_triangle(a, b, c, {0.3, 0.2, 0.1});
-  CHECK(std::sqrt(p.distance2) == doctest::Approx(std::sqrt(0.05)).epsilon(1e-8));
+  CHECK(std::sqrt(p.distance2) == approx(std::sqrt(0.05)).epsilon(1e-8));
 }

@@ -1,5 +1,6 @@
 #include "core/baseline/two_pass.h"
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 
 using namespace tangent;
 using namespace tangent::test;
@@ -48,7 +49,7 @@ TEST_CASE("two-pass on a plate with upright normals is the facet's contact") {
     CHECK(out.status == TickStatus::face);
     CHECK(glm::length(out.contact - Vec3(0.01, 0.02, 0.0)) < 1e-9);
     CHECK(glm::length(out.normal - Vec3(0, 0, 1)) < 1e-9);
-    CHECK(out.penetration_m == doctest::Approx(0.001).epsilon(1e-9));
+    CHECK(out.penetration_m == approx(0.001).epsilon(1e-9));
   }
 }
 
@@ -59,10 +60,10 @@ TEST_CASE("two-pass on a plate with leaning normals: the spring leans by s c per
   const TickOutput out = step_at(scene, 0.020, {0.01, 0.02, 0.020 - depth}, state);
   const Vec3 spring = depth * Vec3(s * c, 0.0, 1.0);
   CHECK(glm::length(out.normal - unit(spring)) < 1e-7);
-  CHECK(out.penetration_m == doctest::Approx(glm::length(spring)).epsilon(1e-9));
+  CHECK(out.penetration_m == approx(glm::length(spring)).epsilon(1e-9));
   CHECK(glm::length(out.contact - Vec3(0.01 + depth * s * c, 0.02, 0.0)) < 1e-9);
   CHECK(glm::length(out.force_n - 800.0 * spring) < 1e-6);
-  CHECK(out.cld_m == doctest::Approx(0.0).scale(1.0));  // the surface under the proxy is level
+  CHECK(out.cld_m == approx(0.0).scale(1.0));  // the surface under the proxy is level
 }
 
 TEST_CASE("two-pass off the surface is free, with the facet's distance") {
@@ -70,7 +71,7 @@ TEST_CASE("two-pass off the surface is free, with the facet's distance") {
   TickState state;
   const TickOutput out = step_at(scene, 0.020, {0.01, 0.02, 0.025}, state);
   CHECK(out.status == TickStatus::free);
-  CHECK(out.penetration_m == doctest::Approx(-0.005));
+  CHECK(out.penetration_m == approx(-0.005));
   CHECK(out.force_n == Vec3(0.0));
 }
 
@@ -92,7 +93,7 @@ TEST_CASE("the proxy keeps to its side of a thin plate where the nearest face do
     facet = stepper.step(sphere_preset(0.0, Method::facet), input, facet_state);
   }
   CHECK(out.normal.z > 0.999);  // 2 mm deep, still pushed back up
-  CHECK(out.penetration_m == doctest::Approx(2e-3).epsilon(1e-3));
+  CHECK(out.penetration_m == approx(2e-3).epsilon(1e-3));
   CHECK(facet.normal.z < -0.999);  // out of the back
 }
 

@@ -1,5 +1,6 @@
 // Contacts on surfaces whose answer is known in closed form.
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -106,10 +107,10 @@ TEST_CASE("the display shows R times the finger's pitch, positive when the finge
       const Quat about_y(std::cos(0.5 * pitch), 0.0, std::sin(0.5 * pitch), 0.0);
       preset.display.travel_m = 16e-3;
       const TickOutput full = solve_once(plate(), preset, {{0.01, 0.02, kRadius - 0.001}, about_y});
-      CHECK(full.cld_m == doctest::Approx(std::clamp(kRadius * pitch, -8e-3, 8e-3)).epsilon(1e-12));
+      CHECK(full.cld_m == approx(std::clamp(kRadius * pitch, -8e-3, 8e-3)).epsilon(1e-12));
       preset.display.travel_m = 8e-3;  // half the travel for the same arc
       const TickOutput half = solve_once(plate(), preset, {{0.01, 0.02, kRadius - 0.001}, about_y});
-      CHECK(half.cld_m == doctest::Approx(std::clamp(0.5 * kRadius * pitch, -4e-3, 4e-3)).epsilon(1e-12));
+      CHECK(half.cld_m == approx(std::clamp(0.5 * kRadius * pitch, -4e-3, 4e-3)).epsilon(1e-12));
       preset.display.source = TactileSource::held;
       CHECK(solve_once(plate(), preset, {{0.01, 0.02, kRadius - 0.001}, about_y}).cld_m == 0.0);
       preset.display.source = TactileSource::method;

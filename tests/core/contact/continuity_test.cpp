@@ -1,6 +1,7 @@
 // Contact and normal are continuous: across smooth edges, through the fans of creases and corners, off a rim.
 #include "core/contact/follow/step_rule.h"
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -292,7 +293,7 @@ TEST_CASE("no finger rests on a concave edge: it touches one side or the other, 
           solve_once(valley, walking_preset(method), origin + Vec3(x, 0.004, kFingerRadius * std::sqrt(2.0) - 0.001));
       CHECK(out.status == TickStatus::face);
       CHECK(out.normal.x * x < 0.0);  // the side it is nearer to pushes it back
-      CHECK(std::abs(out.normal.x) == doctest::Approx(std::sqrt(0.5)).epsilon(1e-9));
+      CHECK(std::abs(out.normal.x) == approx(std::sqrt(0.5)).epsilon(1e-9));
     }
   }
 }

@@ -2,6 +2,7 @@
 #include "core/contact/patch_cache.h"
 #include "core/surface/mesh_patch.h"
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -157,7 +158,7 @@ TEST_CASE("the fan of a crease begins at the one face's normal and ends at the o
           for (const double turn : {0.2, 0.7}) {
             const double angle = turn * std::atan2(fan.far.y, fan.far.x);
             const SurfaceSample n = sample_at(fan, turned_by(angle));
-            CHECK(glm::length(n.normal) == doctest::Approx(1.0).epsilon(1e-14));
+            CHECK(glm::length(n.normal) == approx(1.0).epsilon(1e-14));
             const Vec3 difference =
                 (sample_at(fan, turned_by(angle + 1e-6)).normal - sample_at(fan, turned_by(angle - 1e-6)).normal) /
                 2e-6;

@@ -4,6 +4,7 @@
 #include "core/finger/plane_contact.h"
 #include "tests/core/fingers.h"
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -136,7 +137,7 @@ TEST_CASE("the turn of a direction is that of its part across the edge, however 
     worst = std::max({worst, std::abs(glm::dot(fan.e1, fan.e2)), std::abs(glm::dot(fan.e1, fan.tangent)),
                       std::abs(glm::length(fan.e1) - 1.0), std::abs(glm::length(fan.e2) - 1.0),
                       glm::distance(turn_of(fan, fan.far_normal), fan.far)});
-    CHECK(turn_of(fan, fan.e1).x == doctest::Approx(1.0));
+    CHECK(turn_of(fan, fan.e1).x == approx(1.0));
   });
   REQUIRE(count > 50);
   CHECK(worst < 1e-14);
@@ -186,8 +187,8 @@ TEST_CASE(
     CHECK(std::abs(glm::length(fan.e1) - 1.0) + std::abs(glm::length(fan.e2) - 1.0) +
               std::abs(glm::dot(fan.e1, fan.e2)) <
           1e-12);
-    CHECK(glm::length(turn_of(fan, {0.3, 0.4, 0.5})) == doctest::Approx(1.0));
-    CHECK(glm::length(fan.far) == doctest::Approx(1.0));
+    CHECK(glm::length(turn_of(fan, {0.3, 0.4, 0.5})) == approx(1.0));
+    CHECK(glm::length(fan.far) == approx(1.0));
   }
   // Normals that almost cancel: the direction of their sum stays accurate.
   edge.near.powers = {1e-8 * unit(Vec3(0.1, -0.2, 1.0)), Vec3(0, 0, 1e-9), Vec3(0.0)};
@@ -200,7 +201,7 @@ TEST_CASE(
   move_fan(edge, 0.0, fan);
   CHECK(glm::distance(fan.tangent, Vec3(1, 0, 0)) < 1e-15);
   CHECK(fan.tangent_f == Vec3(0.0));
-  CHECK(glm::length(fan.e1) == doctest::Approx(1.0));
+  CHECK(glm::length(fan.e1) == approx(1.0));
 }
 
 TEST_CASE("flat patches are told from curved ones, and sampled like them to rounding") {

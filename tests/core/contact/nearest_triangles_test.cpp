@@ -3,6 +3,7 @@
 #include "tests/core/capped_cylinder.h"
 #include "tests/core/mesh/sample_meshes.h"
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -220,7 +221,7 @@ TEST_CASE("further away still a triangle is found that reaches as far towards th
       for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v)
         furthest = std::max(furthest, glm::dot(mesh.vertex_position(v), direction));
       CHECK(found >= furthest - 1e-5 * glm::length(mesh.bounds().size()));
-      CHECK(hit.distance_m == doctest::Approx(far).epsilon(1e-6));
+      CHECK(hit.distance_m == approx(far).epsilon(1e-6));
     }
 }
 

@@ -1,6 +1,7 @@
 #include "core/io/pose_file.h"
 #include "core/io/input_file.h"
 
+#include "tests/support/approx.h"
 #include "tests/support/temp_folder.h"
 
 #include <doctest/doctest.h>
@@ -15,6 +16,7 @@
 #include <unistd.h>
 
 using namespace tangent;
+using namespace tangent::test;
 using tangent::testing::contains;
 using tangent::testing::TempFolder;
 
@@ -55,7 +57,7 @@ TEST_CASE("quaternions near unit length are normalised, others refused") {
   const auto poses = parse_poses(header + "0,0,0,0,0.7071,0.7071,0,0\n", "p.csv");
   REQUIRE(poses);
   const Quat q = (*poses)[0].finger.orientation;
-  CHECK(glm::dot(q, q) == doctest::Approx(1.0).epsilon(1e-15));
+  CHECK(glm::dot(q, q) == approx(1.0).epsilon(1e-15));
   CHECK(q.w == q.x);
   CHECK(contains(refusal(header + "0,0,0,0,0,0,0,0\n"),
                  "p.csv:2: the quaternion's length is 0; allowed: 0.999 to 1.001"));

@@ -4,6 +4,7 @@
 #include "core/io/preset_file.h"
 #include "core/lab/objects/generate.h"
 #include "core/tick/step.h"
+#include "tests/support/approx.h"
 #include "tests/support/temp_folder.h"
 
 #include <doctest/doctest.h>
@@ -12,6 +13,7 @@
 #include <string>
 
 using namespace tangent;
+using namespace tangent::test;
 using tangent::testing::TempFolder;
 namespace fs = std::filesystem;
 
@@ -30,7 +32,7 @@ TEST_CASE("a scene from a file is the one built step by step") {
   CHECK(file->source->positions == source->positions);
   const double as_millimetres = (*load_scene(path))->mesh().bounds().size().x;
   const double as_metres = (*load_scene(path, {.metres_per_unit = 1.0}))->mesh().bounds().size().x;
-  CHECK(as_metres == doctest::Approx(1e3 * as_millimetres));
+  CHECK(as_metres == approx(1e3 * as_millimetres));
 }
 
 TEST_CASE("the first contact with the core is one file and one pose") {
@@ -46,7 +48,7 @@ TEST_CASE("the first contact with the core is one file and one pose") {
   TickState state;
   TickInput in;
   in.finger.position = {0.0, 0.0, 0.059};
-  CHECK(stepper.step(*preset, in, state).penetration_m == doctest::Approx(1e-3));
+  CHECK(stepper.step(*preset, in, state).penetration_m == approx(1e-3));
 }
 
 TEST_CASE("a mesh is read beside the building of its scene, and no longer where that might fail") {

@@ -4,10 +4,12 @@
 #include "core/mesh/contact_mesh.h"
 #include "core/mesh/triangle_shape.h"
 #include "tests/core/mesh/sample_meshes.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
 using namespace tangent;
+using namespace tangent::test;
 
 namespace {
 
@@ -155,7 +157,7 @@ TEST_CASE("file normals are used per corner, made unit, and creases follow them"
   CHECK(creases(m) == 12);
   REQUIRE(m.notes().size() == 1);
   CHECK(m.notes()[0] == "--crease-deg is ignored with normals from the file");
-  for (std::uint32_t t = 0; t < 12; ++t) CHECK(glm::length(m.normal(t, 2)) == doctest::Approx(1.0).epsilon(1e-15));
+  for (std::uint32_t t = 0; t < 12; ++t) CHECK(glm::length(m.normal(t, 2)) == approx(1.0).epsilon(1e-15));
   CHECK(build(source, NormalSource::automatic).notes().empty());
 }
 

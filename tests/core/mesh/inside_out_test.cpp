@@ -2,6 +2,7 @@
 #include "core/io/mesh_io.h"
 #include "core/lab/objects/generate.h"
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 #include "tests/support/temp_folder.h"
 
 using namespace tangent;
@@ -111,7 +112,7 @@ TEST_CASE("turned over, it is the ball that looks outwards: the same touch") {
                    mended = touch(built(flipped(source), true));
   CHECK(right.penetration_m < 0.6e-3);
   CHECK(wrong.penetration_m > 0.010);
-  CHECK(mended.penetration_m == doctest::Approx(right.penetration_m).epsilon(1e-9));
+  CHECK(mended.penetration_m == approx(right.penetration_m).epsilon(1e-9));
   CHECK(glm::length(mended.force_n - right.force_n) < 1e-9);
 }
 

@@ -2,6 +2,7 @@
 #include "core/shading/blend.h"
 #include "core/base/tolerances.h"
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -228,5 +229,5 @@ TEST_CASE("without a change nothing is faded that was not before") {
   CHECK(blend(off, {Vec3(0.0), kTick}, {{3.0, 0.0, 0.0}, 0.002, false}, false, state).force_n == Vec3(3.0, 0.0, 0.0));
   begin_change(state);
   const Rendered first = blend(off, {Vec3(0.0), kTick}, {{0.0, 0.0, 3.0}, 0.002, false}, false, state);
-  CHECK(glm::distance(first.force_n, Vec3(3.0, 0.0, 0.0)) == doctest::Approx(kForceFade * kTick).epsilon(1e-3));
+  CHECK(glm::distance(first.force_n, Vec3(3.0, 0.0, 0.0)) == approx(kForceFade * kTick).epsilon(1e-3));
 }

@@ -3,6 +3,7 @@
 #include "core/base/tolerances.h"
 #include "core/lab/measure/roughness.h"
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -204,7 +205,7 @@ TEST_CASE("after a time without a usable pose damping knows no velocity of the w
     if (i == 99) steady = glm::length(state.rendered.velocity);
     if (i >= 140) most = std::max(most, glm::length(state.rendered.velocity));
   }
-  CHECK(steady == doctest::Approx(5e-3));
+  CHECK(steady == approx(5e-3));
   CHECK(most <= 1.001 * steady);
 }
 
@@ -227,6 +228,6 @@ TEST_CASE("where the ramp of an unconverged tick is long over, what still fades 
   Stepper stepper(scene_of({0.002, 0.010}, 180.0));
   const TickOutput out = stepper.step(preset, input, state);
   CHECK(out.status == TickStatus::unconverged);
-  CHECK(out.force_n.z == doctest::Approx(2.0 - 20.0 * kPeriod));
-  CHECK(out.cld_m == doctest::Approx(0.006 - 16.0 * preset.display.travel_m * kPeriod));
+  CHECK(out.force_n.z == approx(2.0 - 20.0 * kPeriod));
+  CHECK(out.cld_m == approx(0.006 - 16.0 * preset.display.travel_m * kPeriod));
 }

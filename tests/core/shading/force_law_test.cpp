@@ -1,5 +1,6 @@
 #include "core/shading/force_law.h"
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -27,9 +28,9 @@ TEST_CASE("out of contact, and where penetration is no number, there is no force
 TEST_CASE("damping resists motion along the normal only, and never pulls") {
   const ForceSettings settings{.stiffness_n_per_m = 1000.0, .damping_n_s_per_m = 2.0};
   const Vec3 sideways = unit(glm::cross(kNormal, Vec3(0, 0, 1)));
-  CHECK(glm::dot(contact_force(settings, kNormal, 0.001, -0.5 * kNormal), kNormal) == doctest::Approx(2.0));
-  CHECK(glm::dot(contact_force(settings, kNormal, 0.001, 0.2 * kNormal), kNormal) == doctest::Approx(0.6));
-  CHECK(glm::dot(contact_force(settings, kNormal, 0.001, 3.0 * sideways), kNormal) == doctest::Approx(1.0));
+  CHECK(glm::dot(contact_force(settings, kNormal, 0.001, -0.5 * kNormal), kNormal) == approx(2.0));
+  CHECK(glm::dot(contact_force(settings, kNormal, 0.001, 0.2 * kNormal), kNormal) == approx(0.6));
+  CHECK(glm::dot(contact_force(settings, kNormal, 0.001, 3.0 * sideways), kNormal) == approx(1.0));
   CHECK(glm::length(contact_force(settings, kNormal, 0.001, 5.0 * kNormal)) == 0.0);
 }
 
@@ -40,7 +41,7 @@ TEST_CASE("the force never exceeds the limit and keeps its direction there") {
     CHECK(glm::length(f) <= 3.0 * (1.0 + 1e-15));
     CHECK(angle_deg(f, kNormal) <= 1e-6);
   }
-  CHECK(glm::length(contact_force(settings, kNormal, 0.1, kStill)) == doctest::Approx(3.0));
+  CHECK(glm::length(contact_force(settings, kNormal, 0.1, kStill)) == approx(3.0));
 }
 
 TEST_CASE("the display maps finger arc to travel linearly, centred and clamped") {
@@ -51,7 +52,7 @@ TEST_CASE("the display maps finger arc to travel linearly, centred and clamped")
   for (double angle = -1.5; angle <= 1.5; angle += 0.1) {
     const Vec3 normal(-std::sin(angle), 0.0, std::cos(angle));  // contact at `angle` from the pad towards the tip
     CHECK(display_position(settings, finger, level, normal) ==
-          doctest::Approx(std::clamp(0.75 * 0.020 * angle, -6e-3, 6e-3)).epsilon(1e-12));
+          approx(std::clamp(0.75 * 0.020 * angle, -6e-3, 6e-3)).epsilon(1e-12));
   }
 }
 

@@ -1,8 +1,10 @@
 #include "core/shading/ramp.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
 using namespace tangent;
+using namespace tangent::test;
 
 TEST_CASE("a display that has its own converged plane does not ramp with the force") {
   Preset preset;
@@ -16,7 +18,7 @@ TEST_CASE("a display that has its own converged plane does not ramp with the for
     decided.cld_m = -0.006;
     ramp_what_was_rendered(preset, way, 0.5, display_ramps, last, decided);
     const double left = 0.5 / (0.5 + 1e-3 / preset.safety.unconverged_ramp_s);
-    CHECK(decided.cld_m == (display_ramps ? doctest::Approx(left * 0.004) : doctest::Approx(-0.006)));
-    CHECK(decided.force_n.z == doctest::Approx(left * 2.0));
+    CHECK(decided.cld_m == (display_ramps ? approx(left * 0.004) : approx(-0.006)));
+    CHECK(decided.force_n.z == approx(left * 2.0));
   }
 }

@@ -1,6 +1,7 @@
 #include "core/surface/patch_edge.h"
 
 #include "tests/core/oracle.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -8,6 +9,7 @@
 #include <random>
 
 using namespace tangent;
+using namespace tangent::test;
 using tangent::test::read_oracle;
 using tangent::test::vec3;
 
@@ -152,8 +154,8 @@ TEST_CASE("principal and normal curvatures of a paraboloid at its vertex are its
   const SurfaceSample s = evaluate(patch, u, v);
   REQUIRE(glm::length(s.point) < 1e-15);
   const PrincipalCurvatures k = principal_curvatures(s, evaluate_second(patch, u, v));
-  CHECK(k.k1 == doctest::Approx(a).epsilon(1e-12));
-  CHECK(k.k2 == doctest::Approx(b).epsilon(1e-12));
+  CHECK(k.k1 == approx(a).epsilon(1e-12));
+  CHECK(k.k2 == approx(b).epsilon(1e-12));
   CHECK(std::abs(std::abs(k.direction1.x) - 1.0) < 1e-12);
   CHECK(std::abs(std::abs(k.direction2.y) - 1.0) < 1e-12);
 }
@@ -168,10 +170,10 @@ TEST_CASE("normal curvature is signed, |dN/ds| holds the torsion too: |dN/ds|^2 
                         Vec3(0, 0, 1),
                         (normal(e, 0) - normal(-e, 0)) / (2 * e),
                         (normal(0, e) - normal(0, -e)) / (2 * e)};
-  CHECK(normal_curvature(s, 1, 0) == doctest::Approx(k).epsilon(1e-3));
-  CHECK(normal_curvature(s, 0, 1) == doctest::Approx(-k).epsilon(1e-3));
+  CHECK(normal_curvature(s, 1, 0) == approx(k).epsilon(1e-3));
+  CHECK(normal_curvature(s, 0, 1) == approx(-k).epsilon(1e-3));
   CHECK(std::abs(normal_curvature(s, 1, 1)) < 1e-9 * k);
-  CHECK(directional_curvature(s, 1, 1) == doctest::Approx(k).epsilon(1e-3));
+  CHECK(directional_curvature(s, 1, 1) == approx(k).epsilon(1e-3));
   CHECK(directional_curvature(s, 3, 3) == directional_curvature(s, 1, 1));
 }
 
@@ -229,7 +231,7 @@ TEST_CASE("a normal polynomial that vanishes falls back to the flat normal witho
       const SurfaceSample s = evaluate(patch, i / 40.0, j / 40.0);
       CHECK(is_finite(s.normal));
       CHECK(is_finite(s.normal_u));
-      CHECK(glm::length(s.normal) == doctest::Approx(1.0));
+      CHECK(glm::length(s.normal) == approx(1.0));
     }
 }
 

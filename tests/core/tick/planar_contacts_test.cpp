@@ -2,6 +2,7 @@
 #include "core/lab/objects/arc.h"
 #include "core/tick/step.h"
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 
 #include <limits>
 #include <numbers>
@@ -63,9 +64,9 @@ TEST_CASE("on a straight polygon the 2D contact is the finger's foot, in one lin
     const TickOutput out = once(line, sphere_preset(0.020, method), {-0.012, 0.029});
     CHECK(out.status == TickStatus::face);
     CHECK(glm::length(out.contact - Vec3(-0.012, 0.01, 0.0)) < 1e-12);
-    CHECK(out.penetration_m == doctest::Approx(0.001).epsilon(1e-9));
+    CHECK(out.penetration_m == approx(0.001).epsilon(1e-9));
     CHECK(glm::length(out.force_n - Vec3(0.0, 0.8, 0.0)) < 1e-8);
-    CHECK(out.cld_m == doctest::Approx(0.0).scale(1.0));
+    CHECK(out.cld_m == approx(0.0).scale(1.0));
   }
 }
 
@@ -78,7 +79,7 @@ TEST_CASE("an inscribed polygon of a circle gives the circle's normal and contac
     const TickOutput out = once(circle, preset, 0.069 * Vec2(out_of.x, out_of.y));
     CHECK(angle_deg(out.normal, out_of) < 0.02);
     CHECK(glm::length(out.contact - 0.05 * out_of) < 5e-5);
-    CHECK(out.penetration_m == doctest::Approx(0.001).epsilon(2e-2));
+    CHECK(out.penetration_m == approx(0.001).epsilon(2e-2));
   }
 }
 
@@ -140,7 +141,7 @@ TEST_CASE("at a sharp corner the contact rests on the vertex and the normal turn
     CHECK(out.status == (std::abs(a) < kPi / 4 ? TickStatus::vertex : TickStatus::face));
     const double turned = std::clamp(a, -kPi / 4, kPi / 4);
     CHECK(angle_deg(out.normal, {std::sin(turned), std::cos(turned), 0.0}) < 1e-9);
-    CHECK(out.cld_m == doctest::Approx(-0.020 * turned).epsilon(1e-9).scale(1e-3));
+    CHECK(out.cld_m == approx(-0.020 * turned).epsilon(1e-9).scale(1e-3));
   }
 }
 
@@ -199,7 +200,7 @@ TEST_CASE("beyond an open end the contact rests on the end vertex") {
     const TickOutput out = once(line, sphere_preset(0.020, method), {-0.012, 0.014});
     CHECK(out.status == TickStatus::vertex);
     CHECK(glm::length(out.contact) < 1e-12);
-    CHECK(out.penetration_m == doctest::Approx(0.020 - std::hypot(0.012, 0.014)));
+    CHECK(out.penetration_m == approx(0.020 - std::hypot(0.012, 0.014)));
   }
 }
 
@@ -232,7 +233,7 @@ TEST_CASE("iterations of a 2D tick are recorded, from the kept line to the conve
   CHECK(trace->size > 2);
   for (std::size_t i = 0; i < trace->size; ++i) {
     const IterationRecord& r = trace->records[i];
-    CHECK(r.error_m == doctest::Approx(glm::length(r.travel)));
+    CHECK(r.error_m == approx(glm::length(r.travel)));
     CHECK(std::abs(glm::dot(r.travel, r.normal)) < 1e-15);
     if (i > 0) CHECK(r.error_m < trace->records[i - 1].error_m);
     CHECK((r.stop == StopReason::converged) == (i + 1 == trace->size));
@@ -270,8 +271,8 @@ TEST_CASE("a 2D scene steps like any other: z ignored, turned and moved with the
   const TickInput there{0.0, {{map(at).x, map(at).y, 0.0}, Quat(std::cos(0.5 * turn), 0.0, 0.0, std::sin(0.5 * turn))}};
   const TickOutput out = step_planar(turned, preset, there, t, nullptr);
   CHECK(glm::length(Vec2(out.contact.x, out.contact.y) - map({here.contact.x, here.contact.y})) < 1e-9);
-  CHECK(out.cld_m == doctest::Approx(here.cld_m).epsilon(1e-6));
-  CHECK(out.penetration_m == doctest::Approx(here.penetration_m).epsilon(1e-6));
+  CHECK(out.cld_m == approx(here.cld_m).epsilon(1e-6));
+  CHECK(out.penetration_m == approx(here.penetration_m).epsilon(1e-6));
 }
 
 TEST_CASE("a pose that is not finite leaves a 2D tick unconverged and its output finite") {

@@ -1,5 +1,6 @@
 // The trace of a tick matches what the tick computed.
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -166,7 +167,7 @@ TEST_CASE("a larger curvature gain shortens the first step, a larger distance ga
     solve_once(traced_torus(), preset, {Vec3(0.070, 0.004, 0.013), Quat(1.0, 0.0, 0.0, 0.0)}, trace.get());
     return trace->records[0].gain;
   };
-  CHECK(first_gain(0.0, 0.0) == doctest::Approx(0.9).epsilon(1e-15));
+  CHECK(first_gain(0.0, 0.0) == approx(0.9).epsilon(1e-15));
   CHECK(first_gain(0.02, 0.0) < first_gain(0.01, 0.0));
   CHECK(first_gain(0.01, 50.0) < first_gain(0.01, 10.0));
 }

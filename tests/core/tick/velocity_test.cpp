@@ -1,5 +1,6 @@
 // The velocity that damping uses: filtered from the positions, or the device's own.
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -80,13 +81,13 @@ TEST_CASE("the device's own velocity is used as it is, and one that is no number
   TickState a, b;
   for (int i = 0; i < 50; ++i) {
     TickInput input = at_position(1e-3 * i, {0.0, 0.0, 0.019});
-    CHECK(none.step(preset, input, b).force_n.z == doctest::Approx(0.8));
+    CHECK(none.step(preset, input, b).force_n.z == approx(0.8));
     input.velocity = Vec3(0.3, 0.0, -0.04);
-    CHECK(own.step(preset, input, a).force_n.z == doctest::Approx(0.8 + 5.0 * 0.04));
+    CHECK(own.step(preset, input, a).force_n.z == approx(0.8 + 5.0 * 0.04));
   }
   TickInput broken = at_position(0.05, {0.0, 0.0, 0.019});
   broken.velocity = Vec3(0.0, 0.0, std::nan(""));
-  CHECK(none.step(preset, broken, b).force_n.z == doctest::Approx(0.8));
+  CHECK(none.step(preset, broken, b).force_n.z == approx(0.8));
 }
 
 TEST_CASE("stamps nearer to each other than a microsecond, or equal, don't blow damping up") {

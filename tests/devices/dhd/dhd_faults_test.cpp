@@ -1,5 +1,6 @@
 // The table fault x ticks of the DHD driver and the gate behind it, over the stub library.
 #include "tests/devices/dhd/dhd_faults.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -64,7 +65,7 @@ DhdTimes run_by_clock(int ticks) {
   times.cpu_s = thread_cpu_s() - cpu_before_s;
   CHECK(l.dhd.forces == ticks);
   CHECK(l.loop.gate_fault() == GateFault::none);
-  CHECK(l.felt_n() == doctest::Approx(ticks > 300 ? 0.5 : l.felt_n()));
+  CHECK(l.felt_n() == approx(ticks > 300 ? 0.5 : l.felt_n()));
   return times;
 }
 

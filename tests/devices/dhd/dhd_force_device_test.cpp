@@ -3,6 +3,7 @@
 #include "devices/dhd/dhd_errors.h"
 #include "devices/dhd/dhd_models.h"
 #include "tests/devices/dhd/dhd_stub_loader.h"
+#include "tests/support/approx.h"
 #include "tests/support/paths.h"
 
 #include <doctest/doctest.h>
@@ -24,7 +25,7 @@ TEST_CASE("dhd: calibrated, it becomes ready, and says what is known of its type
   CHECK(can.workspace_half_size_m == Vec3(0.075));
   CHECK(can.rotations_sensed() == 0);
   CHECK(can.homing_s == 0.0);
-  CHECK(can.firmware_timeout_s == doctest::Approx(0.03));
+  CHECK(can.firmware_timeout_s == approx(0.03));
   CHECK_FALSE(l.device.calls_us());
   std::vector<DeviceState> states;
   for (int i = 0; i < 6; ++i) {
@@ -61,9 +62,9 @@ TEST_CASE("dhd: metres and its axes become the device's frame, and the world's")
   CHECK_FALSE(dhd::is_rotation(mirrored));
   l.loop.wanted_n = Vec3(0.1, 0.2, 0.3);
   l.push();
-  CHECK(l.dhd.force_n[0] == doctest::Approx(0.1));
-  CHECK(l.dhd.force_n[1] == doctest::Approx(0.2));
-  CHECK(l.dhd.force_n[2] == doctest::Approx(0.3));
+  CHECK(l.dhd.force_n[0] == approx(0.1));
+  CHECK(l.dhd.force_n[1] == approx(0.2));
+  CHECK(l.dhd.force_n[2] == approx(0.3));
   const std::vector<std::string> log = l.dhd.log();
   CHECK(std::count(log.begin(), log.end(), "torque") == 0);
 }
@@ -81,7 +82,7 @@ TEST_CASE("dhd: not calibrated it waits for the hand, and pushes with nothing") 
   l.dhd.calibrated = true;
   l.push();
   CHECK(l.loop.state() == DeviceState::ready);
-  CHECK(l.felt_n() == doctest::Approx(0.5));
+  CHECK(l.felt_n() == approx(0.5));
 }
 
 TEST_CASE("dhd: closed in contact it sends zero force, stops, and only then closes") {
@@ -101,7 +102,7 @@ TEST_CASE("dhd: unplugged and plugged in again it comes back by its serial numbe
   DhdLoop l;
   REQUIRE(l.start());
   l.push();
-  CHECK(l.felt_n() == doctest::Approx(0.5));
+  CHECK(l.felt_n() == approx(0.5));
   l.dhd.unplugged = true;
   l.step();
   CHECK(l.felt_n() == 0.0);
@@ -123,7 +124,7 @@ TEST_CASE("dhd: unplugged and plugged in again it comes back by its serial numbe
   CHECK(l.loop.state() == DeviceState::ready);
   CHECK(l.felt_n() == 0.0);  // until a person arms
   l.push();
-  CHECK(l.felt_n() == doctest::Approx(0.5));
+  CHECK(l.felt_n() == approx(0.5));
 }
 
 TEST_CASE("dhd: an emergency stops the force, from any thread, and the device says so") {
@@ -148,7 +149,7 @@ TEST_CASE("dhd: an emergency stops the force, from any thread, and the device sa
     l.push();
     return l.felt_n() != 0.0;
   });
-  CHECK(l.felt_n() == doctest::Approx(0.5));
+  CHECK(l.felt_n() == approx(0.5));
 }
 
 TEST_CASE("dhd: every error code of the reference stops the force in its tick, and is told with what to do") {

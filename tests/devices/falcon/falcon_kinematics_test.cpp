@@ -1,5 +1,6 @@
 // The Falcon's kinematics against their inverse, finite differences and virtual work, over the workspace.
 #include "devices/falcon/falcon_kinematics.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -9,6 +10,7 @@
 #include <cmath>
 
 using namespace tangent;
+using namespace tangent::test;
 
 namespace {
 
@@ -30,8 +32,8 @@ TEST_CASE("Falcon: on the axis the three motors stand alike, and further out the
   for (double z = 0.075; z <= 0.175; z += 0.005) {
     const auto angles = falcon_inverse({0.0, 0.0, z});
     REQUIRE(angles);
-    CHECK(angles->x == doctest::Approx(angles->y).epsilon(1e-12));
-    CHECK(angles->x == doctest::Approx(angles->z).epsilon(1e-12));
+    CHECK(angles->x == approx(angles->y).epsilon(1e-12));
+    CHECK(angles->x == approx(angles->z).epsilon(1e-12));
     CHECK(angles->x > last);
     last = angles->x;
   }
@@ -40,7 +42,7 @@ TEST_CASE("Falcon: on the axis the three motors stand alike, and further out the
   REQUIRE(at_zero);
   const double v = 0.02309 - 0.025, across = 0.060 - (0.01443 - 0.040);
   const double reach = 0.0225 + std::sqrt(0.1025 * 0.1025 - v * v);
-  CHECK(at_zero->z == doctest::Approx(std::sqrt(reach * reach - across * across)).epsilon(1e-12));
+  CHECK(at_zero->z == approx(std::sqrt(reach * reach - across * across)).epsilon(1e-12));
   CHECK(std::hypot(at_zero->x, at_zero->y) < 1e-12);
 }
 
@@ -97,7 +99,7 @@ TEST_CASE("Falcon: torques do the work that the force does, for every small moti
     const auto torques = falcon_torques(place, force);
     REQUIRE(torques);
     for (const Vec3& motion : {Vec3(1e-3, 0.0, 0.0), Vec3(0.0, 1e-3, 0.0), Vec3(0.0, 0.0, 1e-3)})
-      CHECK(glm::dot(*torques, *jacobian * motion) == doctest::Approx(glm::dot(force, motion)).epsilon(1e-9));
+      CHECK(glm::dot(*torques, *jacobian * motion) == approx(glm::dot(force, motion)).epsilon(1e-9));
     CHECK(length(*falcon_force(place, *torques) - force) < 1e-9);
   });
 }
@@ -110,9 +112,9 @@ TEST_CASE("Falcon: equal torques in the middle push along its axis, outwards whe
 }
 
 TEST_CASE("Falcon: encoders round to the nearest tick, and none wraps") {
-  CHECK(falcon_angles({0, 0, 0}).x == doctest::Approx(35.0 * std::numbers::pi / 180.0));
+  CHECK(falcon_angles({0, 0, 0}).x == approx(35.0 * std::numbers::pi / 180.0));
   CHECK(falcon_angles({1000, 0, -1000}).x - falcon_angles({1000, 0, -1000}).z ==
-        doctest::Approx(72.87 * std::numbers::pi / 180.0));
+        approx(72.87 * std::numbers::pi / 180.0));
   CHECK(falcon_encoders(Vec3(1e6)) == FalconEncoders{32767, 32767, 32767});
   CHECK(falcon_encoders(Vec3(-1e6)) == FalconEncoders{-32768, -32768, -32768});
   for (const auto ticks : std::array<std::int16_t, 5>{-2500, -1, 0, 1, 1733}) {

@@ -1,4 +1,5 @@
 #include "devices/gate/energy.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -9,6 +10,7 @@
 #include <numbers>
 
 using namespace tangent;
+using namespace tangent::test;
 
 namespace {
 
@@ -117,9 +119,9 @@ TEST_CASE("credit is what the hand put in, no more than the surface can return, 
   EnergyWatch watch;
   const double dt = 1e-3;
   const RenderedWall wall{1000.0, 2.0, kPeak_n, 1.0};  // 2 mm deep: 2 mJ
-  CHECK(stored_energy(wall) == doctest::Approx(2e-3));
-  CHECK(stored_energy({1000.0, 2.0, kPeak_n, 0.25}) == doctest::Approx(0.5e-3));
-  CHECK(stored_energy({1000.0, 10.0, 4.0, 1.0}) == doctest::Approx(0.5 * 16e-3 + 4.0 * 6e-3));
+  CHECK(stored_energy(wall) == approx(2e-3));
+  CHECK(stored_energy({1000.0, 2.0, kPeak_n, 0.25}) == approx(0.5e-3));
+  CHECK(stored_energy({1000.0, 10.0, 4.0, 1.0}) == approx(0.5 * 16e-3 + 4.0 * 6e-3));
   CHECK(stored_energy({0.0, 10.0, 4.0, 1.0}) == 0.0);
   // Rubbing against friction for a minute takes 12 J from the hand ...
   for (int i = 0; i < 60'000; ++i)
@@ -166,17 +168,17 @@ TEST_CASE("observed energy: the hand's while it presses, none after it left a sp
   PushedWall wall{.stiffness = 800.0};
   wall.depth_m = [](double t) { return 3e-3 * std::min(1.0, t / 0.5); };
   wall.run(0.5);
-  CHECK(wall.watch.net_j() == doctest::Approx(-0.5 * 800.0 * 9e-6).epsilon(0.05));
+  CHECK(wall.watch.net_j() == approx(-0.5 * 800.0 * 9e-6).epsilon(0.05));
 }
 
 TEST_CASE("the mean force of a past interval is that of the ticks in it") {
   ForceHistory history;
   CHECK(history.mean(0.0, 0.0) == Vec3(0.0));
   for (int i = 0; i < 1000; ++i) history.add(Vec3(i, 0, 0), 1e-3);  // i N in the tick that ends at i + 1 ms
-  CHECK(history.mean(0.999, 1.0).x == doctest::Approx(999.0));
-  CHECK(history.mean(0.990, 0.992).x == doctest::Approx(990.5));
-  CHECK(history.mean(0.9905, 0.9910).x == doctest::Approx(990.0));
-  CHECK(history.mean(0.9, 1.0).x == doctest::Approx(949.5));
-  CHECK(history.mean(2.0, 3.0).x == 999.0);                                  // nothing is known of then
-  CHECK(history.mean(0.0, 1.0).x == doctest::Approx(872.0).epsilon(0.001));  // as far back as it goes
+  CHECK(history.mean(0.999, 1.0).x == approx(999.0));
+  CHECK(history.mean(0.990, 0.992).x == approx(990.5));
+  CHECK(history.mean(0.9905, 0.9910).x == approx(990.0));
+  CHECK(history.mean(0.9, 1.0).x == approx(949.5));
+  CHECK(history.mean(2.0, 3.0).x == 999.0);                         // nothing is known of then
+  CHECK(history.mean(0.0, 1.0).x == approx(872.0).epsilon(0.001));  // as far back as it goes
 }

@@ -3,6 +3,7 @@
 #include "devices/contact_display.h"
 #include "devices/force_device.h"
 #include "devices/safety_gate.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -10,6 +11,7 @@
 #include <string>
 
 using namespace tangent;
+using namespace tangent::test;
 
 namespace {
 
@@ -90,10 +92,10 @@ TEST_CASE("the longest tick is twenty periods, never more than 20 ms, and one mi
     limits.period_s = 1.0 / rate_hz;
     return longest_tick_s(limits);
   };
-  CHECK(longest(10'000.0) == doctest::Approx(2e-3));
-  CHECK(longest(1000.0) == doctest::Approx(20e-3));
-  CHECK(longest(300.0) == doctest::Approx(20e-3));
-  CHECK(longest(100.0) == doctest::Approx(20e-3));
+  CHECK(longest(10'000.0) == approx(2e-3));
+  CHECK(longest(1000.0) == approx(20e-3));
+  CHECK(longest(300.0) == approx(20e-3));
+  CHECK(longest(100.0) == approx(20e-3));
   CHECK(longest(100.0) >= 2.0 / 100.0);
 }
 

@@ -2,6 +2,7 @@
 
 #include "devices/haply/haply_address.h"
 #include "devices/haply/haply_link.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -9,6 +10,7 @@
 #include <random>
 
 using namespace tangent;
+using namespace tangent::test;
 
 namespace {
 
@@ -53,8 +55,8 @@ TEST_CASE("how a Haply VerseGrip is turned is read where it is a rotation and th
   // The published example of a list.
   const HaplyGrip grip = read(R"({"x":-0.5019531,"y":0.8632202,"z":-0.048095703,"w":-0.022338867})");
   CHECK(grip.turned);
-  CHECK(glm::length(grip.orientation) == doctest::Approx(1.0).epsilon(1e-12));
-  CHECK(grip.orientation.y == doctest::Approx(0.8632202).epsilon(1e-4));
+  CHECK(glm::length(grip.orientation) == approx(1.0).epsilon(1e-12));
+  CHECK(grip.orientation.y == approx(0.8632202).epsilon(1e-4));
   for (const char* bad : {R"({"x":0,"y":0,"z":0,"w":0})", R"({"x":0,"y":0,"z":0,"w":1.1})", R"({"x":0,"y":0,"z":0})",
                           R"({"x":null,"y":0,"z":0,"w":1})", "7"}) {
     CAPTURE(bad);

@@ -3,6 +3,7 @@
 #include "devices/haply/haply_list.h"
 #include "devices/plugin/host/allocation_watch.h"
 #include "tests/devices/haply/haply_faults.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -16,6 +17,7 @@
 using namespace tangent;
 using namespace tangent::testing;
 using emulation::eventually;
+using tangent::test::approx;
 
 namespace {
 
@@ -314,7 +316,7 @@ TEST_CASE("a free mass at the emulated Inverse3 is moved by the force that was s
   }
   rig.tick();
   REQUIRE(rig.sample.velocity_m_per_s.has_value());
-  CHECK(rig.sample.velocity_m_per_s->z == doctest::Approx(impulse / 0.2).epsilon(0.01));
+  CHECK(rig.sample.velocity_m_per_s->z == approx(impulse / 0.2).epsilon(0.01));
   CHECK(rig.sample.position_m.z > 0.0);
 }
 

@@ -2,6 +2,7 @@
 
 #include "devices/openhaptics/hd_errors.h"
 #include "tests/devices/openhaptics/hd_stub_loader.h"
+#include "tests/support/approx.h"
 #include "tests/support/paths.h"
 
 #include <doctest/doctest.h>
@@ -27,7 +28,7 @@ TEST_CASE("openhaptics: calibrated, it is ready after a few frames, and says wha
   CHECK_FALSE(can.simulated);
   CHECK(can.peak_force_n == 3.3);
   CHECK(can.continuous_force_n == 0.88);
-  CHECK(can.largest_stiffness_n_per_m == doctest::Approx(1000.0));
+  CHECK(can.largest_stiffness_n_per_m == approx(1000.0));
   CHECK(can.rotations_sensed() == 3);
   CHECK(can.buttons == 2);
   CHECK(can.homing_s == 0.0);
@@ -62,9 +63,9 @@ TEST_CASE("openhaptics: millimetres and its axes become the device's frame, and 
   CHECK(glm::length(to_world * l.loop.sample().orientation * Vec3(1, 0, 0) - Vec3(1, 0, 0)) < 1e-12);  // points away
   l.loop.wanted_n = Vec3(0.1, 0.2, 0.3);
   l.push();
-  CHECK(l.hd.force_n[0] == doctest::Approx(0.1));
-  CHECK(l.hd.force_n[1] == doctest::Approx(0.2));
-  CHECK(l.hd.force_n[2] == doctest::Approx(0.3));
+  CHECK(l.hd.force_n[0] == approx(0.1));
+  CHECK(l.hd.force_n[1] == approx(0.2));
+  CHECK(l.hd.force_n[2] == approx(0.3));
 }
 
 TEST_CASE("openhaptics: a stylus that is turned turns the finger about the same axis of the world") {
@@ -97,7 +98,7 @@ TEST_CASE("openhaptics: it is calibrated in the inkwell, by itself, and pushes w
   l.step(400);
   CHECK(l.hd.calibrated_with == hd::kInkwell);
   CHECK(l.loop.state() == DeviceState::ready);
-  CHECK(l.felt_n() == doctest::Approx(0.5));
+  CHECK(l.felt_n() == approx(0.5));
   CHECK(l.hd.broken_rules == 0);
   CHECK_MESSAGE(l.hd.first_broken.empty(), l.hd.first_broken);
 }
@@ -143,7 +144,7 @@ TEST_CASE("openhaptics: unplugged and plugged in again it comes back, the progra
   HdLoop l;
   REQUIRE(l.start());
   l.push();
-  CHECK(l.felt_n() == doctest::Approx(0.5));
+  CHECK(l.felt_n() == approx(0.5));
   l.hd.unplugged = true;
   l.step();
   CHECK(l.loop.first_fault() == DeviceFault::disconnected);
@@ -162,7 +163,7 @@ TEST_CASE("openhaptics: unplugged and plugged in again it comes back, the progra
   CHECK(l.loop.state() == DeviceState::ready);
   CHECK(l.felt_n() == 0.0);  // until a person arms
   l.push();
-  CHECK(l.felt_n() == doctest::Approx(0.5));
+  CHECK(l.felt_n() == approx(0.5));
   CHECK(l.hd.broken_rules == 0);
 }
 

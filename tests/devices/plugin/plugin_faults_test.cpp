@@ -1,10 +1,12 @@
 // What a plug-in may do wrong while it is felt, tick by tick: zero force within two ticks.
 #include "tests/devices/plugin/plugin_faults.h"
+#include "tests/support/approx.h"
 
 #include <cstdio>
 
 using namespace tangent;
 using namespace tangent::testing;
+using tangent::test::approx;
 
 TEST_CASE("whatever a plug-in does wrong, there is no force within two ticks, and a person has to arm again") {
   for (const PluginFault& fault : kPluginFaults) {
@@ -150,7 +152,7 @@ TEST_CASE("silence shorter than the gate's 10 ms fades the force in again, and l
   bench.arm();
   while (bench.tick < 104) bench.step();
   CHECK_FALSE(bench.pushes());
-  CHECK(bench.sample.age_s == doctest::Approx(4e-3));
+  CHECK(bench.sample.age_s == approx(4e-3));
   CHECK(bench.sample.state == DeviceState::ready);
   bench.step(2);
   CHECK(bench.sample.age_s == 0.0);
@@ -158,5 +160,5 @@ TEST_CASE("silence shorter than the gate's 10 ms fades the force in again, and l
   CHECK(bench.pushes());
   CHECK(bench.device.sent_n().z < 0.1);
   bench.step(60);
-  CHECK(bench.device.sent_n().z == doctest::Approx(1.0));
+  CHECK(bench.device.sent_n().z == approx(1.0));
 }

@@ -6,6 +6,7 @@
 #include "devices/safety_gate.h"
 #include "devices/serial/serial_force_device.h"
 #include "tests/devices/serial/serial_rig.h"
+#include "tests/support/approx.h"
 
 #include <atomic>
 #include <functional>
@@ -13,6 +14,8 @@
 #include <utility>
 
 namespace tangent::serial_test {
+
+using test::approx;
 
 inline std::atomic<std::int64_t> bench_ns{1'000'000'000};
 /// Happens once, when this thread next looks at the clock: in the middle of its exchange.
@@ -122,7 +125,7 @@ class SerialBench {
     for (int i = 0; i < 20; ++i) tick();
     CHECK(sample.state == DeviceState::ready);
     REQUIRE(sample.force_n == wanted_n);
-    REQUIRE(rig.force_n[2] == doctest::Approx(wanted_n.z));
+    REQUIRE(rig.force_n[2] == approx(wanted_n.z));
   }
   void unplug() {
     dev.detach("ttyACM0", kId);

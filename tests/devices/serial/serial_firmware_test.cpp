@@ -3,6 +3,7 @@
 #include "devices/serial/firmware/tangent_firmware.h"
 #include "devices/serial/serial_messages.h"
 #include "tests/devices/serial/serial_rig.h"
+#include "tests/support/approx.h"
 #include "tests/support/paths.h"
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <optional>
 
 using namespace tangent;
+using namespace tangent::test;
 using namespace tangent::serial_test;
 
 namespace {
@@ -96,14 +98,14 @@ TEST_CASE("the firmware pushes in ready alone, no harder than its peak, along it
   b.make_ready();
   b.command({0, -2000000, 1500000});
   b.step();
-  CHECK(b.pushed[1] == doctest::Approx(-2.0));
-  CHECK(b.pushed[2] == doctest::Approx(1.5));
+  CHECK(b.pushed[1] == approx(-2.0));
+  CHECK(b.pushed[2] == approx(1.5));
   CHECK(b.telemetry()->force_mn == std::array<std::int16_t, 3>{0, -2000, 1500});
   b.command({std::numeric_limits<std::int32_t>::min(), 4000000, std::numeric_limits<std::int32_t>::max()});
   b.step();
   const double length = std::sqrt(double{b.pushed[0]} * b.pushed[0] + double{b.pushed[1]} * b.pushed[1] +
                                   double{b.pushed[2]} * b.pushed[2]);
-  CHECK(length == doctest::Approx(5.0).epsilon(1e-4));
+  CHECK(length == approx(5.0).epsilon(1e-4));
   b.command({0, 0, 1000000}, SerialRequest::stop);
   CHECK_FALSE(b.pushes());
   tangent_description is = three_axes();
@@ -182,11 +184,11 @@ TEST_CASE("the firmware does not push with a force that came before, and counts 
   b.hear(to_frame(ForceCommandMessage{{0, 0, 3000000}, SerialRequest::none}, static_cast<std::uint16_t>(newest - 1)));
   b.hear(to_frame(ForceCommandMessage{{0, 0, 3000000}, SerialRequest::none}, newest));
   b.step();
-  CHECK(b.pushed[2] == doctest::Approx(1.0));
+  CHECK(b.pushed[2] == approx(1.0));
   b.sequence = static_cast<std::uint16_t>(newest + 3);
   b.command({0, 0, 2000000});
   b.step();
-  CHECK(b.pushed[2] == doctest::Approx(2.0));
+  CHECK(b.pushed[2] == approx(2.0));
   CHECK(b.telemetry()->missed_frames == 3);
   CHECK(b.telemetry()->heard_sequence == b.sequence);
 }
@@ -264,11 +266,11 @@ TEST_CASE("the Hapkit of the example: its torque is what its motion says, and it
   hapkit kit{};
   hapkit_init(&kit, &g, 5.0f, 42);
   // One turn of the motor is 2 pi 5 mm of cable, and 90 / 75 of that at the handle.
-  CHECK(hapkit_position_m(&g, 4096) == doctest::Approx(2.0 * 3.14159265 * 0.005 * 0.09 / 0.075));
+  CHECK(hapkit_position_m(&g, 4096) == approx(2.0 * 3.14159265 * 0.005 * 0.09 / 0.075));
   // Virtual work: force times motion is torque times angle.
   const double moved_m = static_cast<double>(hapkit_position_m(&g, 1000)), angle_rad = 2.0 * 3.14159265 * 1000 / 4096;
-  CHECK(static_cast<double>(hapkit_torque_nm(&g, 2.0f)) * angle_rad == doctest::Approx(2.0 * moved_m));
-  CHECK(hapkit_duty(&g, 2.0f) == doctest::Approx(2.0 * 0.006 / 0.03));
+  CHECK(static_cast<double>(hapkit_torque_nm(&g, 2.0f)) * angle_rad == approx(2.0 * moved_m));
+  CHECK(hapkit_duty(&g, 2.0f) == approx(2.0 * 0.006 / 0.03));
   CHECK(hapkit_duty(&g, 100.0f) == 1.0f);
   CHECK(hapkit_duty(&g, -100.0f) == -1.0f);
   CHECK(hapkit_duty(&g, NAN) == 0.0f);
@@ -296,8 +298,8 @@ TEST_CASE("the Hapkit of the example: its torque is what its motion says, and it
   const auto telemetry = to_force_telemetry(hapkit_hardware.said.back());
   REQUIRE(telemetry);
   CHECK(telemetry->position_nm[0] == 0);
-  CHECK(telemetry->position_nm[2] == doctest::Approx(1e9 * static_cast<double>(hapkit_position_m(&g, 1024))));
-  CHECK(hapkit_hardware.duty == doctest::Approx(0.4));
+  CHECK(telemetry->position_nm[2] == approx(1e9 * static_cast<double>(hapkit_position_m(&g, 1024))));
+  CHECK(hapkit_hardware.duty == approx(0.4));
   hapkit_hardware.answers = 0;  // the encoder's cable
   tangent_step(&kit.firmware, 3000);
   CHECK(hapkit_hardware.duty == 0.0f);

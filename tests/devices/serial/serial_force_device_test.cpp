@@ -2,6 +2,7 @@
 #include "devices/serial/serial_force_device.h"
 
 #include "tests/devices/serial/serial_faults.h"
+#include "tests/support/approx.h"
 
 #include <grp.h>
 #include <sys/ioctl.h>
@@ -10,6 +11,7 @@
 #include <cstdio>
 
 using namespace tangent;
+using namespace tangent::test;
 using namespace tangent::serial_test;
 
 TEST_CASE("a force device on a serial line says what it is, is homed, and pushes") {
@@ -20,22 +22,22 @@ TEST_CASE("a force device on a serial line says what it is, is homed, and pushes
   CHECK(can.pushes_along == std::array<bool, 3>{true, true, true});
   CHECK(can.senses_rotation == std::array<bool, 3>{true, true, true});
   CHECK(can.buttons == 2);
-  CHECK(can.peak_force_n == doctest::Approx(5.0));
-  CHECK(can.continuous_force_n == doctest::Approx(2.0));
-  CHECK(can.position_resolution_m == doctest::Approx(10e-6));
-  CHECK(can.apparent_mass_kg == doctest::Approx(0.1));
-  CHECK(can.largest_stiffness_n_per_m == doctest::Approx(2000.0));
-  CHECK(can.largest_damping_n_s_per_m == doctest::Approx(5.0));
-  CHECK(can.workspace_half_size_m.y == doctest::Approx(0.05));
-  CHECK(can.rate_hz == doctest::Approx(1000.0));
-  CHECK(can.homing_s == doctest::Approx(1.0));
-  CHECK(can.firmware_timeout_s == doctest::Approx(0.02));
+  CHECK(can.peak_force_n == approx(5.0));
+  CHECK(can.continuous_force_n == approx(2.0));
+  CHECK(can.position_resolution_m == approx(10e-6));
+  CHECK(can.apparent_mass_kg == approx(0.1));
+  CHECK(can.largest_stiffness_n_per_m == approx(2000.0));
+  CHECK(can.largest_damping_n_s_per_m == approx(5.0));
+  CHECK(can.workspace_half_size_m.y == approx(0.05));
+  CHECK(can.rate_hz == approx(1000.0));
+  CHECK(can.homing_s == approx(1.0));
+  CHECK(can.firmware_timeout_s == approx(0.02));
   b.push();
   for (int i = 0; i < 300; ++i) b.tick();
   // 1 N on a hand of 200 N/m, as the firmware measures it, the newest of a tick ago.
-  CHECK(b.sample.position_m.z == doctest::Approx(5e-3).epsilon(1e-3));
+  CHECK(b.sample.position_m.z == approx(5e-3).epsilon(1e-3));
   CHECK(b.sample.position_m.x == 0.0);
-  CHECK(b.sample.age_s == doctest::Approx(1e-3));
+  CHECK(b.sample.age_s == approx(1e-3));
   b.rig.buttons = 1;
   b.tick();
   b.tick();
@@ -103,9 +105,9 @@ TEST_CASE("a frame that is lost now and then costs nothing, and two ticks withou
   b.rig.lie = Lie::none;
   b.tick();
   b.tick();  // comes back as slowly as the gate lets a force grow
-  CHECK(b.sample.force_n.z == doctest::Approx(2.0));
+  CHECK(b.sample.force_n.z == approx(2.0));
   b.tick();
-  CHECK(b.sample.force_n.z == doctest::Approx(4.0));
+  CHECK(b.sample.force_n.z == approx(4.0));
   CHECK(b.sample.state == DeviceState::ready);
 }
 
@@ -280,7 +282,7 @@ TEST_CASE("in 200 ticks through a serial line nothing is lost either way") {
   for (int i = 0; i < 200; ++i) {
     b.wanted_n.z = 1.0 + 0.01 * (i % 100);
     b.tick();
-    REQUIRE(b.rig.force_n[2] == doctest::Approx(b.sample.force_n.z).epsilon(1e-5));
+    REQUIRE(b.rig.force_n[2] == approx(b.sample.force_n.z).epsilon(1e-5).scale(0.1));
   }
   const LinkReport after = b.report();
   CHECK(after.frames == before.frames + 200);

@@ -1,4 +1,5 @@
 #include "devices/simulated/cld_mechanism.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -7,6 +8,7 @@
 #include <numbers>
 
 using namespace tangent;
+using namespace tangent::test;
 
 namespace {
 
@@ -34,11 +36,11 @@ double gain_at(double hz, CldMechanismOptions options = ideal()) {
 
 TEST_CASE("a sine at the set bandwidth comes out at -3 dB, one far below comes out whole") {
   // The encoder's difference quotient is half a millisecond old, which shifts the corner by a few percent.
-  CHECK(gain_at(12.0) == doctest::Approx(std::numbers::sqrt2 / 2.0).epsilon(0.05));
-  CHECK(gain_at(1.0) == doctest::Approx(1.0).epsilon(0.01));
+  CHECK(gain_at(12.0) == approx(std::numbers::sqrt2 / 2.0).epsilon(0.05));
+  CHECK(gain_at(1.0) == approx(1.0).epsilon(0.01));
   CldMechanismOptions slow = ideal();
   slow.bandwidth_hz = 5.0;
-  CHECK(gain_at(5.0, slow) == doctest::Approx(std::numbers::sqrt2 / 2.0).epsilon(0.05));
+  CHECK(gain_at(5.0, slow) == approx(std::numbers::sqrt2 / 2.0).epsilon(0.05));
 }
 
 TEST_CASE("a step arrives like a second-order lag and stays without error") {
@@ -50,10 +52,10 @@ TEST_CASE("a step arrives like a second-order lag and stays without error") {
     highest = std::max(highest, cld.drive_m());
     if (risen == 0 && cld.drive_m() >= 1e-3) risen = i;
   }
-  CHECK(highest / 2e-3 == doctest::Approx(1.0 + std::exp(-std::numbers::pi)).epsilon(0.03));  // 4.3 % over
+  CHECK(highest / 2e-3 == approx(1.0 + std::exp(-std::numbers::pi)).epsilon(0.03));  // 4.3 % over
   CHECK(risen >= 18);
   CHECK(risen <= 23);  // continuous: 19 ms to the half, one period of the controller later
-  CHECK(cld.drive_m() == doctest::Approx(2e-3).epsilon(1e-6));
+  CHECK(cld.drive_m() == approx(2e-3).epsilon(1e-6));
 }
 
 TEST_CASE("the drive never leaves its travel, and its encoder reads in steps") {
@@ -67,7 +69,7 @@ TEST_CASE("the drive never leaves its travel, and its encoder reads in steps") {
     CHECK(std::abs(cld.current()) <= 1.0);
   }
   for (int i = 0; i < 2000; ++i) cld.control(5.0);
-  CHECK(cld.encoder_m() == doctest::Approx(0.01).epsilon(1e-3));
+  CHECK(cld.encoder_m() == approx(0.01).epsilon(1e-3));
 }
 
 TEST_CASE("the roller follows the drive through the backlash: late by half of it, either way") {
@@ -108,9 +110,9 @@ TEST_CASE("targets keep within the limits and move no faster than they say") {
   CHECK(cld.drive_m() < 2e-3);
   CHECK(cld.drive_m() > 1.6e-3);
   for (int i = 0; i < 2000; ++i) cld.control(9e-3);
-  CHECK(cld.drive_m() == doctest::Approx(4e-3).epsilon(1e-6));
+  CHECK(cld.drive_m() == approx(4e-3).epsilon(1e-6));
   for (int i = 0; i < 2000; ++i) cld.control(-9e-3);
-  CHECK(cld.drive_m() == doctest::Approx(-2e-3).epsilon(1e-6));
+  CHECK(cld.drive_m() == approx(-2e-3).epsilon(1e-6));
 }
 
 TEST_CASE("a tenth of the motor's current gives a tenth of the acceleration") {
@@ -124,7 +126,7 @@ TEST_CASE("a tenth of the motor's current gives a tenth of the acceleration") {
   CHECK(moved(0.0) == moved(0.5));
   CHECK(moved(5.0) == moved(0.5));
   CHECK(moved(0.05) < 0.5 * moved(0.5));
-  CHECK(moved(0.05) == doctest::Approx(20.0 * 0.5 * 25e-6).epsilon(0.06));
+  CHECK(moved(0.05) == approx(20.0 * 0.5 * 25e-6).epsilon(0.06));
 }
 
 TEST_CASE("gains set under way don't jolt a drive at rest, and none are the bandwidth's own") {

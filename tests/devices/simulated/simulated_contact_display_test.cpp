@@ -1,4 +1,5 @@
 #include "devices/simulated/simulated_contact_display.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -10,6 +11,7 @@
 #include <vector>
 
 using namespace tangent;
+using namespace tangent::test;
 
 namespace {
 
@@ -96,7 +98,7 @@ TEST_CASE("injected faults of the display: named, and over after their time") {
   for (int i = 1; i <= 10; ++i) {
     s = sample();
     CHECK(s.position_m == before);
-    CHECK(s.age_s == doctest::Approx(i * kDisplayDt));
+    CHECK(s.age_s == approx(i * kDisplayDt));
   }
   CHECK(sample().age_s == 0.0);
   run(500);

@@ -4,11 +4,13 @@
 #include "tests/devices/usb/emulation/cld_model.h"
 #include "tests/devices/usb/emulation/testbed.h"
 #include "tests/devices/usb/usb_checks.h"
+#include "tests/support/approx.h"
 
 #include <cmath>
 #include <ctime>
 
 using namespace tangent;
+using namespace tangent::test;
 using namespace tangent::emulation;
 
 namespace {
@@ -90,11 +92,11 @@ TEST_CASE("the CLD controller is found, asked what it is, homed and followed") {
   Bench b;
   CHECK(b.cld.exchange({}, kDt).state != DeviceState::ready);
   REQUIRE(b.reach(DeviceState::firmware));
-  CHECK(b.sample.travel_m == doctest::Approx(20e-3));
-  CHECK(b.report().travel_m == doctest::Approx(20e-3));
-  CHECK(b.report().resolution_m == doctest::Approx(0.8e-6));
-  CHECK(b.report().bandwidth_hz == doctest::Approx(12.0));
-  CHECK(b.report().firmware_timeout_s == doctest::Approx(0.05));
+  CHECK(b.sample.travel_m == approx(20e-3));
+  CHECK(b.report().travel_m == approx(20e-3));
+  CHECK(b.report().resolution_m == approx(0.8e-6));
+  CHECK(b.report().bandwidth_hz == approx(12.0));
+  CHECK(b.report().firmware_timeout_s == approx(0.05));
   CHECK(b.report().identity == "firmware 1.2, serial 77");
   b.make_ready();
   CHECK(eventually([&] { return std::abs(b.exchange(4e-3).position_m - 4e-3) < 5e-6; }));
@@ -122,8 +124,8 @@ TEST_CASE("gains and limits reach the controller when they change, and one that 
     return gains().p_per_s2 == 2500.0;
   }));
   CHECK(gains().i_per_s3 == 12000.0);
-  CHECK(gains().d_per_s == doctest::Approx(70.25));
-  CHECK(gains().target_weight == doctest::Approx(0.75).epsilon(1e-4));
+  CHECK(gains().d_per_s == approx(70.25));
+  CHECK(gains().target_weight == approx(0.75).epsilon(1e-4));
   // The firmware clamps targets beyond the limit.
   CHECK(eventually([&] { return std::abs(b.exchange(9e-3).position_m - 4e-3) < 5e-6; }));
   b.device.unplug();

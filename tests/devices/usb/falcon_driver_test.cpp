@@ -1,12 +1,14 @@
 // The Falcon's driver and the safety gate against an emulated Falcon, tick by tick: homing, force, faults.
 #include "devices/falcon/falcon_calibration.h"
 #include "tests/devices/usb/falcon_rig.h"
+#include "tests/support/approx.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
 using namespace tangent;
+using namespace tangent::test;
 using namespace tangent::emulation;
 
 namespace {
@@ -79,7 +81,7 @@ TEST_CASE("Falcon: not calibrated, it says so, and pushes with no more than a ne
   rig.make_ready();
   rig.push({0.0, 0.0, 50.0}, 900);
   const double felt = rig.model.hand_n_per_m * size_of(rig.model.place_m() - rig.model.hand_m);
-  CHECK(felt == doctest::Approx(0.5).epsilon(0.02));  // half, where the public driver's 10,000 counts are true
+  CHECK(felt == approx(0.5).epsilon(0.02));  // half, where the public driver's 10,000 counts are true
   for (const int count : rig.model.last.torque) CHECK(std::abs(count) <= kFalconUncalibratedCounts);
 }
 
@@ -108,8 +110,8 @@ TEST_CASE("Falcon: each that is plugged in pushes by the torque scale that is ke
     rig.make_ready();
     rig.push({0.0, 0.0, 2.0}, 900);
     const double felt = rig.model.hand_n_per_m * size_of(rig.model.place_m() - rig.model.hand_m);
-    CHECK(felt == doctest::Approx(p.felt_n).epsilon(0.02));
-    CHECK(size_of(rig.sample.force_n) == doctest::Approx(p.felt_n).epsilon(1e-9));
+    CHECK(felt == approx(p.felt_n).epsilon(0.02));
+    CHECK(size_of(rig.sample.force_n) == approx(p.felt_n).epsilon(1e-9));
     rig.unplug();
     rig.tick();
   }
@@ -124,7 +126,7 @@ TEST_CASE("Falcon: a torque scale that is given counts, whatever is kept") {
   rig.make_ready();
   rig.push({0.0, 0.0, 2.0}, 900);
   const double felt = rig.model.hand_n_per_m * size_of(rig.model.place_m() - rig.model.hand_m);
-  CHECK(felt == doctest::Approx(2.0).epsilon(0.02));
+  CHECK(felt == approx(2.0).epsilon(0.02));
 }
 
 TEST_CASE("Falcon: the force that it says is the one that is sent, also in the tick in which none is") {

@@ -5,6 +5,7 @@
 #include "tests/devices/usb/emulation/maestro_model.h"
 #include "tests/devices/usb/emulation/testbed.h"
 #include "tests/devices/usb/usb_checks.h"
+#include "tests/support/approx.h"
 #include "tests/support/temp_folder.h"
 #include "workbench/session/maestro_setups.h"
 #include "workbench/session/session.h"
@@ -13,6 +14,7 @@
 #include <ctime>
 
 using namespace tangent;
+using namespace tangent::test;
 using namespace tangent::emulation;
 
 namespace {
@@ -61,7 +63,7 @@ TEST_CASE(
     b.exchange(5e-3);
     return b.seen([&] { return b.model.targets[0]; }) == 7000;
   }));
-  CHECK(b.sample.position_m == doctest::Approx(5e-3));
+  CHECK(b.sample.position_m == approx(5e-3));
   CHECK_FALSE(b.display.capabilities().measures_position);
   CHECK(b.display.capabilities().firmware_timeout_s == 0.0);  // stated: it has none
   b.exchange(0.0, DeviceRequest::stop);

@@ -3,12 +3,15 @@
 #include "workbench/experiment/paper_results.h"
 
 #include "core/base/split_mix.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
 namespace tangent::analysis {
+
+using test::approx;
 namespace {
 
 ConfusionMatrix paper_matrix() {
@@ -23,9 +26,9 @@ TEST_CASE("the paper's table: its mean diagonal, its extremes and the informatio
   const ConfusionMatrix table = paper_matrix();
   double diagonal = 0.0;
   for (std::size_t i = 0; i < 7; ++i) diagonal += experiment::kPaperConfusionPercent[i][i] / 7.0;
-  CHECK(diagonal == doctest::Approx(experiment::kPaperAccuracyPercent).epsilon(0.001));
-  CHECK(table.share(4, 0) == doctest::Approx(0.201).epsilon(0.01));  // the tetrahedron taken for a cone
-  CHECK(information_bits(table) == doctest::Approx(1.82).epsilon(0.003));
+  CHECK(diagonal == approx(experiment::kPaperAccuracyPercent).epsilon(0.001));
+  CHECK(table.share(4, 0) == approx(0.201).epsilon(0.01));  // the tetrahedron taken for a cone
+  CHECK(information_bits(table) == approx(1.82).epsilon(0.003));
   for (std::size_t i = 0; i < 7; ++i) {
     double row = 0.0;
     for (const double percent : experiment::kPaperConfusionPercent[i]) row += percent;
@@ -39,10 +42,10 @@ TEST_CASE("answers that are always right tell all, answers by chance nothing") {
     right.add(i, i, 10);
     for (std::size_t j = 0; j < 7; ++j) chance.add(i, j, 10);
   }
-  CHECK(information_bits(right) == doctest::Approx(std::log2(7.0)));
+  CHECK(information_bits(right) == approx(std::log2(7.0)));
   CHECK(std::abs(information_bits(chance)) < 1e-12);
   CHECK(right.accuracy() == 1.0);
-  CHECK(chance.accuracy() == doctest::Approx(1.0 / 7.0));
+  CHECK(chance.accuracy() == approx(1.0 / 7.0));
   CHECK(ConfusionMatrix(7).accuracy() == 0.0);
 }
 
@@ -61,7 +64,7 @@ TEST_CASE("a share's interval holds the truth in 95 of 100, and never leaves 0 t
   CHECK(held > 0.94 * kTrials);
   CHECK(held < 0.965 * kTrials);
   CHECK(share_interval(0, 10).low == 0.0);
-  CHECK(share_interval(10, 10).high == doctest::Approx(1.0));
+  CHECK(share_interval(10, 10).high == approx(1.0));
   CHECK(share_interval(0, 10).high > 0.2);
 }
 

@@ -1,6 +1,7 @@
 // Simulated groups end to end: files, loading, results, page.
 #include "workbench/analysis/write_analysis.h"
 
+#include "tests/support/approx.h"
 #include "tests/support/paths.h"
 #include "workbench/analysis/analysis_figures.h"
 #include "workbench/analysis/staircase_warnings.h"
@@ -20,6 +21,8 @@
 #include <unistd.h>
 
 namespace tangent::analysis {
+
+using test::approx;
 namespace {
 
 namespace fs = std::filesystem;
@@ -444,8 +447,8 @@ TEST_CASE("one who guesses is warned of, and one alone has no interval") {
 
 TEST_CASE("guessing: the chance of so many right answers") {
   CHECK(guessing_probability(0, 5) == 1.0);
-  CHECK(guessing_probability(5, 5) == doctest::Approx(1.0 / 32.0));
-  CHECK(guessing_probability(3, 4) == doctest::Approx(5.0 / 16.0));
+  CHECK(guessing_probability(5, 5) == approx(1.0 / 32.0));
+  CHECK(guessing_probability(3, 4) == approx(5.0 / 16.0));
 }
 
 TEST_CASE("tests of names are over participants, paired, and say how many, and the paper's stand beside them") {
@@ -473,7 +476,7 @@ TEST_CASE("tests of names are over participants, paired, and say how many, and t
   CHECK(paired.count == 6);
   REQUIRE(paired.test);
   CHECK(paired.test->freedom == 5.0);
-  CHECK(paired.test->difference == doctest::Approx(-0.5).epsilon(0.02));
+  CHECK(paired.test->difference == approx(-0.5).epsilon(0.02));
   CHECK(paired.test->p < 1e-6);
   CHECK(apart.count == 6 * 112);
   REQUIRE(apart.test);

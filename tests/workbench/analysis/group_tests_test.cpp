@@ -4,6 +4,7 @@
 #include "workbench/experiment/paper_results.h"
 
 #include "core/base/split_mix.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 #include <boost/math/distributions/normal.hpp>
@@ -13,6 +14,8 @@
 #include <cmath>
 
 namespace tangent::analysis {
+
+using test::approx;
 namespace {
 
 double normal_value(SplitMix& random) {
@@ -45,7 +48,7 @@ TEST_CASE("the studentized range has the upper points of the published tables") 
     CAPTURE(point.groups);
     CAPTURE(point.freedom);
     CHECK(std::abs(studentized_range_quantile(point.above, point.groups, point.freedom) - point.q) < 0.0051);
-    CHECK(studentized_range_above(point.q, point.groups, point.freedom) == doctest::Approx(point.above).epsilon(0.02));
+    CHECK(studentized_range_above(point.q, point.groups, point.freedom) == approx(point.above).epsilon(0.02));
   }
 }
 
@@ -67,20 +70,20 @@ TEST_CASE("t tests of Student's own data") {
   const std::vector<double> b{1.9, 0.8, 1.1, 0.1, -0.1, 4.4, 5.5, 1.6, 4.6, 3.4};
   const auto paired = paired_t_test(a, b);
   REQUIRE(paired);
-  CHECK(paired->t == doctest::Approx(-4.0621).epsilon(1e-4));
+  CHECK(paired->t == approx(-4.0621).epsilon(1e-4));
   CHECK(paired->freedom == 9.0);
-  CHECK(paired->p == doctest::Approx(0.002833).epsilon(1e-3));
-  CHECK(paired->low == doctest::Approx(-2.4598858).epsilon(1e-6));
-  CHECK(paired->high == doctest::Approx(-0.7001142).epsilon(1e-6));
+  CHECK(paired->p == approx(0.002833).epsilon(1e-3));
+  CHECK(paired->low == approx(-2.4598858).epsilon(1e-6));
+  CHECK(paired->high == approx(-0.7001142).epsilon(1e-6));
   const auto welch = welch_t_test(a, b);
   REQUIRE(welch);
-  CHECK(welch->t == doctest::Approx(-1.8608).epsilon(1e-4));
-  CHECK(welch->freedom == doctest::Approx(17.776).epsilon(1e-4));
-  CHECK(welch->p == doctest::Approx(0.07939).epsilon(1e-3));
+  CHECK(welch->t == approx(-1.8608).epsilon(1e-4));
+  CHECK(welch->freedom == approx(17.776).epsilon(1e-4));
+  CHECK(welch->p == approx(0.07939).epsilon(1e-3));
   const auto student = student_t_test(a, b);
   REQUIRE(student);
   CHECK(student->freedom == 18.0);
-  CHECK(student->p == doctest::Approx(0.07919).epsilon(1e-3));
+  CHECK(student->p == approx(0.07919).epsilon(1e-3));
 }
 
 TEST_CASE("what can't be tested has no test") {
@@ -97,10 +100,10 @@ TEST_CASE("analysis of variance of a textbook's three groups") {
   const std::vector<std::vector<double>> groups{{6, 8, 4, 5, 3, 4}, {8, 12, 9, 11, 6, 8}, {13, 9, 11, 8, 7, 12}};
   const auto anova = one_way_anova(groups);
   REQUIRE(anova);
-  CHECK(anova->f == doctest::Approx(42.0 / (68.0 / 15.0)));
+  CHECK(anova->f == approx(42.0 / (68.0 / 15.0)));
   CHECK(anova->freedom_between == 2.0);
   CHECK(anova->freedom_error == 15.0);
-  CHECK(anova->p == doctest::Approx(0.002399).epsilon(1e-3));
+  CHECK(anova->p == approx(0.002399).epsilon(1e-3));
   const std::vector<TukeyPair> pairs = tukey_test(groups, *anova);
   REQUIRE(pairs.size() == 3);
   CHECK(pairs[0].p < 0.05);  // 5 and 9
@@ -121,7 +124,7 @@ TEST_CASE("the paper's Table 1 gives the paper's F") {
   }
   const auto anova = one_way_anova(groups);
   REQUIRE(anova);
-  CHECK(anova->f == doctest::Approx(experiment::kPaperAnovaF).epsilon(0.005));
+  CHECK(anova->f == approx(experiment::kPaperAnovaF).epsilon(0.005));
   const auto pairs = tukey_test(groups, *anova);
   for (std::size_t i = 0; i < 6; ++i) CHECK((pairs[i].p < 0.05) == (i != 4));  // all but C2 and C4, 5.2.6
 }
@@ -134,11 +137,11 @@ TEST_CASE("of two groups both analyses are t tests") {
   const auto repeated = repeated_measures_anova(groups);
   REQUIRE(anova);
   REQUIRE(repeated);
-  CHECK(anova->f == doctest::Approx(t->t * t->t));
-  CHECK(anova->p == doctest::Approx(t->p));
-  CHECK(repeated->f == doctest::Approx(paired->t * paired->t));
-  CHECK(repeated->p == doctest::Approx(paired->p));
-  CHECK(tukey_test(groups, *anova)[0].p == doctest::Approx(t->p).epsilon(1e-6));
+  CHECK(anova->f == approx(t->t * t->t));
+  CHECK(anova->p == approx(t->p));
+  CHECK(repeated->f == approx(paired->t * paired->t));
+  CHECK(repeated->p == approx(paired->p));
+  CHECK(tukey_test(groups, *anova)[0].p == approx(t->p).epsilon(1e-6));
 }
 
 TEST_CASE("repeated measures see a difference that participants hide") {

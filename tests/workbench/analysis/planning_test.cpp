@@ -3,6 +3,7 @@
 #include "workbench/analysis/page_table.h"
 #include "workbench/analysis/write_planning.h"
 
+#include "tests/support/approx.h"
 #include "tests/support/paths.h"
 #include "workbench/session/own_folder.h"
 
@@ -13,6 +14,8 @@
 #include <sstream>
 
 namespace tangent::analysis {
+
+using test::approx;
 namespace {
 
 experiment::Protocol shipped_protocol(const std::string& kind) {
@@ -22,9 +25,9 @@ experiment::Protocol shipped_protocol(const std::string& kind) {
 
 TEST_CASE("Kendall's tau: 1 for the same order, -1 backwards, less for ties") {
   const std::vector<double> up{1.0, 2.0, 3.0, 4.0}, down{4.0, 3.0, 2.0, 1.0}, tied{1.0, 1.0, 2.0, 2.0};
-  CHECK(*kendall_tau(up, up) == doctest::Approx(1.0));
-  CHECK(*kendall_tau(up, down) == doctest::Approx(-1.0));
-  CHECK(*kendall_tau(up, tied) == doctest::Approx(4.0 / std::sqrt(6.0 * 4.0)));
+  CHECK(*kendall_tau(up, up) == approx(1.0));
+  CHECK(*kendall_tau(up, down) == approx(-1.0));
+  CHECK(*kendall_tau(up, tied) == approx(4.0 / std::sqrt(6.0 * 4.0)));
   CHECK_FALSE(kendall_tau(up, std::vector<double>(4, 5.0)));
 }
 
@@ -36,20 +39,20 @@ TEST_CASE(
   const auto agrees = agreement_with_paper(names, like);
   REQUIRE(agrees);
   CHECK(agrees->participants == 2);
-  CHECK(agrees->tau == doctest::Approx(1.0));
-  CHECK(agrees->low == doctest::Approx(1.0));
+  CHECK(agrees->tau == approx(1.0));
+  CHECK(agrees->low == approx(1.0));
   const std::vector<std::vector<double>> unlike{{16, 17}, {100, 90}, {4, 5}, {250, 260}};
-  CHECK(agreement_with_paper(names, unlike)->tau == doctest::Approx(-1.0));
+  CHECK(agreement_with_paper(names, unlike)->tau == approx(-1.0));
   CHECK_FALSE(agreement_with_paper(std::vector<std::string>{"C1", "C2"}, {{1, 2}, {3, 4}}));
 }
 
 TEST_CASE("power without a difference is the level, and grows to one") {
-  CHECK(paired_t_power(0.0, 12) == doctest::Approx(0.05));
-  CHECK(anova_power(0.0, 4, 12) == doctest::Approx(0.05));
+  CHECK(paired_t_power(0.0, 12) == approx(0.05));
+  CHECK(anova_power(0.0, 4, 12) == approx(0.05));
   CHECK(paired_t_power(3.0, 12) > 0.999);
   CHECK(anova_power(3.0, 4, 12) > 0.999);
   // Of two conditions F is t squared.
-  CHECK(anova_power(0.8 * 0.8, 2, 10) == doctest::Approx(paired_t_power(0.8, 10)).epsilon(1e-6));
+  CHECK(anova_power(0.8 * 0.8, 2, 10) == approx(paired_t_power(0.8, 10)).epsilon(1e-6));
 }
 
 TEST_CASE("simulated groups find what theory says") {

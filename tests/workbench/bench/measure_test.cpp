@@ -2,6 +2,7 @@
 #include "workbench/bench/report_json.h"
 
 #include "core/shading/render.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -9,6 +10,7 @@
 #include <span>
 
 using namespace tangent;
+using namespace tangent::test;
 using namespace tangent::bench;
 
 namespace {
@@ -74,7 +76,7 @@ TEST_CASE("the best gain of the paper's iteration on a sphere is about the finge
   REQUIRE(poses);
   Preset preset = c.preset;
   preset.solver.method = Method::paper;
-  CHECK(with_best_gain(*scene, preset, *poses, [] { return false; }).solver.gain_curvature_m == doctest::Approx(0.020));
+  CHECK(with_best_gain(*scene, preset, *poses, [] { return false; }).solver.gain_curvature_m == approx(0.020));
 }
 
 TEST_CASE("errors shrink with the tolerance, down to the converged answer") {

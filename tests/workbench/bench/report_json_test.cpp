@@ -1,10 +1,12 @@
 #include "workbench/bench/report_json.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
 #include <set>
 
 using namespace tangent;
+using namespace tangent::test;
 using namespace tangent::bench;
 
 namespace {
@@ -41,8 +43,8 @@ SceneReport scene_report() {
 
 TEST_CASE("ratios are over one evaluation and over the paper's typical tick") {
   const SceneReport scene = scene_report();
-  CHECK(ticks_per_evaluation(scene, *scene.of(Method::robust)) == doctest::Approx(2.0));
-  CHECK(ticks_per_paper_tick(scene, *scene.of(Method::robust)) == doctest::Approx(0.25));
+  CHECK(ticks_per_evaluation(scene, *scene.of(Method::robust)) == approx(2.0));
+  CHECK(ticks_per_paper_tick(scene, *scene.of(Method::robust)) == approx(0.25));
   SceneReport alone = scene;
   alone.methods.erase(alone.methods.begin());
   CHECK(ticks_per_paper_tick(alone, alone.methods.front()) == 0.0);
@@ -67,15 +69,15 @@ TEST_CASE("the report has its keys, units converted") {
         "error_from_robust_converged", "closed_path_work", "allocations"})
     CHECK(robust.contains(key));
   CHECK(robust["typical_tick_ns"] == 100.0);
-  CHECK(robust["mean_per_bounded_query"].get<double>() == doctest::Approx(4.0));
+  CHECK(robust["mean_per_bounded_query"].get<double>() == approx(4.0));
   for (const char* key : {"p50", "p99", "p99_9", "worst"}) CHECK(robust["tick_ns"].contains(key));
   for (const char* key : {"first", "reseed", "switch", "branch"}) CHECK(robust["events"].contains(key));
-  CHECK(robust["error_from_robust_converged"]["contact_um"]["p99"].get<double>() == doctest::Approx(2.0));
-  CHECK(robust["error_from_robust_converged"]["normal_deg"]["p99"].get<double>() == doctest::Approx(1.0));
-  CHECK(robust["closed_path_work"]["max_mj"].get<double>() == doctest::Approx(3.0));
+  CHECK(robust["error_from_robust_converged"]["contact_um"]["p99"].get<double>() == approx(2.0));
+  CHECK(robust["error_from_robust_converged"]["normal_deg"]["p99"].get<double>() == approx(1.0));
+  CHECK(robust["closed_path_work"]["max_mj"].get<double>() == approx(3.0));
   CHECK(robust["error_from_own_converged"].is_null());
   CHECK(robust["allocations"].is_null());  // not counted in this program
   const auto& point = json["work_precision"][0]["curves"][0]["points"][0];
-  CHECK(point["tolerance_mm"].get<double>() == doctest::Approx(1e-3));
-  CHECK(point["contact_error_p99_um"].get<double>() == doctest::Approx(2e-3));
+  CHECK(point["tolerance_mm"].get<double>() == approx(1e-3));
+  CHECK(point["contact_error_p99_um"].get<double>() == approx(2e-3));
 }

@@ -3,6 +3,7 @@
 
 #include "core/lab/measure/converged_answer.h"
 #include "core/lab/measure/scene_statistics.h"
+#include "tests/support/approx.h"
 #include "workbench/bench/curves_job.h"
 #include "workbench/bench/speed_curves_report.h"
 
@@ -14,6 +15,7 @@
 #include <thread>
 
 using namespace tangent;
+using namespace tangent::test;
 using namespace tangent::bench;
 
 namespace {
@@ -150,7 +152,7 @@ TEST_CASE("peers answer the raw mesh's nearest point, and their distance from th
     CAPTURE(p.peer.name);
     CHECK(p.answered == 200);
     REQUIRE(p.error_m);
-    CHECK(p.error_m->max == doctest::Approx(facet_m).epsilon(1e-6));
+    CHECK(p.error_m->max == approx(facet_m).epsilon(1e-6));
     CHECK(p.worst == curves->points.front().errors.worst);
     CHECK(p.times.mean_ns.median > 0.0);
     CHECK_FALSE(p.peer.computes.empty());

@@ -1,6 +1,7 @@
 // The paper says that its iteration takes two to three planes on average on its objects (4.5.3): how many it takes in
 // the strokes of its participants, and what depth and speed change in that.
 #include "core/tick/step.h"
+#include "tests/support/approx.h"
 #include "workbench/bench/bench_case.h"
 #include "workbench/bench/case_paths.h"
 #include "workbench/session/stroke_path.h"
@@ -14,6 +15,7 @@
 #include <vector>
 
 using namespace tangent;
+using namespace tangent::test;
 using namespace tangent::bench;
 
 namespace {
@@ -91,7 +93,7 @@ TEST_CASE(
   const SevenObjects objects;
   const Planes shipped = objects.planes(0.1, 1.0e-3);
   MESSAGE("0.1 m/s, 1 mm deep: " << shipped.all << " planes, on top " << shipped.top);
-  CHECK(shipped.all == doctest::Approx(2.58).epsilon(0.003));
+  CHECK(shipped.all == approx(2.58).epsilon(0.003));
   CHECK(shipped.unconverged == 0);
   for (const auto& [speed, press] : {std::pair(0.05, 0.5e-3), {0.25, 2.0e-3}}) {
     CAPTURE(speed);

@@ -1,5 +1,6 @@
 // What takes turns: order, intervals, ranks and ties, on times that are made up.
 #include "workbench/bench/turns.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -8,6 +9,7 @@
 #include <vector>
 
 using namespace tangent;
+using namespace tangent::test;
 using namespace tangent::bench;
 
 namespace {
@@ -70,16 +72,16 @@ TEST_CASE("ratios are those of the same round, whatever the machine does from ro
   CHECK_FALSE(ranks[0].tie);
   CHECK(ranks[1].competitor == 2);
   CHECK(ranks[1].tie);
-  CHECK(ranks[1].to_fastest.ratio == doctest::Approx(1.02));
+  CHECK(ranks[1].to_fastest.ratio == approx(1.02));
   CHECK_FALSE(ranks[2].tie);
-  CHECK(ranks[3].to_fastest.ratio == doctest::Approx(2.0));
-  CHECK(ranks[3].to_fastest.high == doctest::Approx(2.0));
+  CHECK(ranks[3].to_fastest.ratio == approx(2.0));
+  CHECK(ranks[3].to_fastest.high == approx(2.0));
   CHECK(ranked(turns, std::array<std::size_t, 2>{0, 3}).front().competitor == 3);
   CHECK(turns.least_ns(0) == std::vector<double>(8, 200.0));
   const TickTimes times = times_of(turns.of(1));
-  CHECK(times.mean_ns.median == doctest::Approx(175.0));
-  CHECK(times.mean_ns.low == doctest::Approx(100.0));
-  CHECK(times.mean_ns.high == doctest::Approx(900.0));
+  CHECK(times.mean_ns.median == approx(175.0));
+  CHECK(times.mean_ns.low == approx(100.0));
+  CHECK(times.mean_ns.high == approx(900.0));
   CHECK(times.p99_ns.coverage > 0.95);
 }
 
@@ -90,10 +92,10 @@ TEST_CASE("a tick's times of a round are its mean, median, 99th percentile and m
     return ns;
   }});
   REQUIRE(turns.round());
-  CHECK(turns.of(0).mean_ns.front() == doctest::Approx(59.5));
+  CHECK(turns.of(0).mean_ns.front() == approx(59.5));
   CHECK(turns.of(0).p50_ns.front() == 50.0);
   CHECK(turns.of(0).p99_ns.front() == 99.0);
-  CHECK(turns.of(0).typical_ns.front() == doctest::Approx(50.5));
+  CHECK(turns.of(0).typical_ns.front() == approx(50.5));
 }
 
 TEST_CASE("a round that is stopped counts for none of its competitors") {
@@ -121,7 +123,6 @@ TEST_CASE("there and back, a round runs the reverse of its order, too, and of ea
   REQUIRE(turns.round());
   REQUIRE(log.size() == 10);
   for (std::size_t k = 0; k < 5; ++k) CHECK(log[k] == log[9 - k]);
-  for (std::size_t i = 0; i < 5; ++i)
-    CHECK(turns.of(i).mean_ns.front() == doctest::Approx(100.0 * static_cast<double>(i + 1)));
+  for (std::size_t i = 0; i < 5; ++i) CHECK(turns.of(i).mean_ns.front() == approx(100.0 * static_cast<double>(i + 1)));
   CHECK(turns.rounds() == 1);
 }

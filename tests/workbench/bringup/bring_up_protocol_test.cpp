@@ -2,6 +2,7 @@
 #include "workbench/bringup/bring_up_protocol.h"
 
 #include "devices/simulated/scheduled_force_device.h"
+#include "tests/support/approx.h"
 #include "tests/support/temp_folder.h"
 #include "tests/workbench/bringup/simulated_person.h"
 #include "workbench/bringup/bring_up_runner.h"
@@ -18,6 +19,7 @@
 
 using namespace tangent;
 using namespace tangent::testing;
+using tangent::test::approx;
 
 namespace {
 
@@ -84,7 +86,7 @@ TEST_CASE("what was proved is kept by driver and serial number") {
   const std::filesystem::path file = folder.file("config/proved-devices.toml");
   const ProvedDevice good = proved_device(protocol_of({}));
   CHECK(good.all);
-  CHECK(good.most_n == doctest::Approx(0.2));
+  CHECK(good.most_n == approx(0.2));
   CHECK(proved_text(good) == "all proved on 2026-11-23, up to 0.2 N");
   ProvedDevice other = proved_device(protocol_of({.noise_m = 1e-3}));
   other.serial = "78 b";

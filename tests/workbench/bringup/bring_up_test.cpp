@@ -1,6 +1,7 @@
 // Bring-up of simulated devices with and without faults.
 #include "workbench/bringup/bring_up.h"
 
+#include "tests/support/approx.h"
 #include "tests/workbench/bringup/simulated_person.h"
 #include "workbench/bringup/bring_up_text.h"
 
@@ -10,6 +11,7 @@
 
 using namespace tangent;
 using namespace tangent::testing;
+using tangent::test::approx;
 
 namespace {
 
@@ -190,7 +192,7 @@ TEST_CASE("bring-up: force doubles from 0.1 N to the limit, which is never above
   CHECK(run.largest_n <= 1.4);
   const auto& pushes = run.view.facts.pushes;
   const double wanted[] = {0.1, 0.2, 0.4, 0.8, 1.4, -1.4};
-  for (std::size_t i = 0; i < 6; ++i) CHECK(pushes[i].force_n == doctest::Approx(wanted[i]));
+  for (std::size_t i = 0; i < 6; ++i) CHECK(pushes[i].force_n == approx(wanted[i]));
 }
 
 TEST_CASE("bring-up: a stop takes the force away in the next exchange, whenever it comes") {

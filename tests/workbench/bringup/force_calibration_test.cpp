@@ -2,6 +2,7 @@
 #include "workbench/bringup/force_calibration.h"
 
 #include "devices/simulated/simulated_force_device.h"
+#include "tests/support/approx.h"
 #include "tests/support/temp_folder.h"
 #include "tests/workbench/bringup/pulled_scale.h"
 #include "workbench/bringup/bring_up_text.h"
@@ -19,6 +20,7 @@
 
 using namespace tangent;
 using namespace tangent::testing;
+using tangent::test::approx;
 
 namespace {
 
@@ -39,7 +41,7 @@ TEST_CASE("calibration: a wrong torque scale is found within 2 %") {
     CHECK(run.ticks_to_zero == 0);
     const auto found = calibrated_scale(run.view, kUsedScale);
     REQUIRE(found);
-    CHECK(*found == doctest::Approx(truth).epsilon(0.02));
+    CHECK(*found == approx(truth).epsilon(0.02));
   }
 }
 
@@ -51,7 +53,7 @@ TEST_CASE("calibration: with the scale that was found, a newton is a newton") {
   const CalibrationRun run = calibrate(again);
   REQUIRE(run.view.done);
   const FalconReading& last = run.view.readings[run.view.reading_count - 1];
-  CHECK(last.read_n == doctest::Approx(last.asked_n).epsilon(0.02));
+  CHECK(last.read_n == approx(last.asked_n).epsilon(0.02));
 }
 
 TEST_CASE("calibration: readings on no line are refused") {
@@ -156,7 +158,7 @@ TEST_CASE("calibration: a person who looks for the middle while it pulls stops n
   CHECK(machine.view().done);
   const auto found = calibrated_scale(machine.view(), kUsedScale);
   REQUIRE(found);
-  CHECK(*found == doctest::Approx(10'000.0).epsilon(0.02));
+  CHECK(*found == approx(10'000.0).epsilon(0.02));
 }
 
 TEST_CASE("calibration: an answer to an earlier question is no yes to a pull, and without one nothing moves") {

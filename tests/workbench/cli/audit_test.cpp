@@ -1,4 +1,5 @@
 // workbench audit, run as a process.
+#include "tests/support/approx.h"
 #include "tests/support/process.h"
 
 #include <doctest/doctest.h>
@@ -7,6 +8,7 @@
 #include <cstdlib>
 
 using namespace tangent::testing;
+using tangent::test::approx;
 
 TEST_CASE("a closed sphere is found healthy, in text and JSON") {
   const TempFolder folder;
@@ -22,7 +24,7 @@ TEST_CASE("a closed sphere is found healthy, in text and JSON") {
   CHECK(audit["boundary_edges"] == 0);
   CHECK(audit["components"] == 1);
   CHECK(audit["defects"].empty());
-  CHECK(audit["box_max_m"][0].get<double>() == doctest::Approx(0.040).epsilon(1e-9));
+  CHECK(audit["box_max_m"][0].get<double>() == approx(0.040).epsilon(1e-9));
   CHECK(audit["smoothness"]["conditions"]["P1"]["felt_edges"] == 0);
   CHECK(audit["smoothness"]["conditions"]["C3"]["felt_share"].get<double>() == 1.0);
   CHECK(audit["smoothness"]["condition"] == "C3");
@@ -68,8 +70,8 @@ TEST_CASE("units, fit and normals reach the mesh, and an ignored option is noted
     REQUIRE(run_workbench(more).exit_code == 0);
     return nlohmann::json::parse(read_text(folder.file("audit.json")));
   };
-  CHECK(audit({"--unit", "in"})["box_max_m"][1].get<double>() == doctest::Approx(0.040).epsilon(1e-9));
-  CHECK(audit({"--fit-mm", "250"})["box_max_m"][1].get<double>() == doctest::Approx(0.125).epsilon(1e-9));
+  CHECK(audit({"--unit", "in"})["box_max_m"][1].get<double>() == approx(0.040).epsilon(1e-9));
+  CHECK(audit({"--fit-mm", "250"})["box_max_m"][1].get<double>() == approx(0.125).epsilon(1e-9));
   CHECK(audit({"--normals", "computed"})["mesh"]["normals_used"] == "computed");
   const auto noted = audit({"--normals", "file", "--crease-deg", "10"});
   CHECK(noted["mesh"]["normals_used"] == "file");
@@ -137,8 +139,8 @@ TEST_CASE("a closed mesh that is inside out is said by audit and solve, and turn
     for (int i = 0; i < 12; ++i) row = row.substr(row.find(',') + 1);
     return std::strtod(row.c_str(), nullptr);
   };
-  CHECK(penetration({}) == doctest::Approx(0.009));
-  CHECK(penetration({"--turn-over"}) == doctest::Approx(0.001));
+  CHECK(penetration({}) == approx(0.009));
+  CHECK(penetration({"--turn-over"}) == approx(0.001));
 }
 
 TEST_CASE("a mesh and a preset whose names are not UTF-8 are audited and solved, and the JSON stays JSON") {

@@ -1,5 +1,6 @@
 // workbench figures, run as a process: checks the claims of the figures on their data.
 #include "workbench/cli/figures.h"
+#include "tests/support/approx.h"
 #include "tests/support/process.h"
 #include "workbench/session/figure_table.h"
 
@@ -12,6 +13,7 @@
 
 using namespace tangent;
 using namespace tangent::testing;
+using tangent::test::approx;
 
 namespace {
 
@@ -52,8 +54,8 @@ TEST_CASE("figures writes every figure as SVG with its CSV, and the curvature ta
   const auto contact = rows_of(out + "/fig04-contact-location.csv");
   for (std::size_t i = 1; i < contact.size(); ++i) still += std::abs(contact[i][2] - contact[i - 1][2]) < 1e-9;
   CHECK(still > static_cast<int>(contact.size()) * 9 / 10);
-  CHECK(contact.front()[2] == doctest::Approx(9.02).epsilon(1e-3));  // 20 mm times half of 0.902 rad
-  CHECK(contact.back()[3] == doctest::Approx(-9.02).epsilon(1e-3));
+  CHECK(contact.front()[2] == approx(9.02).epsilon(1e-3));  // 20 mm times half of 0.902 rad
+  CHECK(contact.back()[3] == approx(-9.02).epsilon(1e-3));
 
   // Five segments: full shading follows the circle, facets are off by half a facet's turn, a held display stands at 0.
   double p1 = 0.0, c1 = 0.0, held = 0.0;
@@ -63,7 +65,7 @@ TEST_CASE("figures writes every figure as SVG with its CSV, and the curvature ta
     p1 = std::max(p1, std::abs(row[11] - row[1]));
   }
   CHECK(p1 < 0.05);
-  CHECK(c1 == doctest::Approx(0.902 / 4 / 2 * 180 / 3.14159265).epsilon(0.2));
+  CHECK(c1 == approx(0.902 / 4 / 2 * 180 / 3.14159265).epsilon(0.2));
   CHECK(held == 0.0);
 }
 

@@ -1,6 +1,7 @@
 // workbench make, run as a process.
 #include "core/io/polygon_io.h"
 #include "core/lab/objects/arc.h"
+#include "tests/support/approx.h"
 #include "tests/support/process.h"
 
 #include <doctest/doctest.h>
@@ -8,6 +9,7 @@
 #include <cmath>
 
 using namespace tangent::testing;
+using tangent::test::approx;
 
 TEST_CASE("every object can be made and read back without defects") {
   const TempFolder folder;
@@ -56,15 +58,15 @@ TEST_CASE("the arc of the paper is 0.902 rad of a circle of 100 mm radius, in ei
   const auto tangent_arc = arc("a.csv", {});
   REQUIRE(tangent_arc.size() == 8);  // five facets and one more at either end
   for (std::size_t i = 0; i + 1 < 8; ++i)
-    CHECK(glm::length(0.5 * (tangent_arc[i] + tangent_arc[i + 1])) == doctest::Approx(0.1).epsilon(1e-12));
+    CHECK(glm::length(0.5 * (tangent_arc[i] + tangent_arc[i + 1])) == approx(0.1).epsilon(1e-12));
   // From the middle of the first facet to that of the last.
-  CHECK(-turn(tangent_arc, 1, 5) == doctest::Approx(0.902).epsilon(1e-12));
+  CHECK(-turn(tangent_arc, 1, 5) == approx(0.902).epsilon(1e-12));
   const auto inscribed = arc("b.obj", {"--segments", "9", "--placement", "inscribed"});
   REQUIRE(inscribed.size() == 12);
-  for (const tangent::Vec2& v : inscribed) CHECK(glm::length(v) == doctest::Approx(0.1).epsilon(1e-12));
-  CHECK(-turn(inscribed, 1, 10) == doctest::Approx(0.902).epsilon(1e-12));
+  for (const tangent::Vec2& v : inscribed) CHECK(glm::length(v) == approx(0.1).epsilon(1e-12));
+  CHECK(-turn(inscribed, 1, 10) == approx(0.902).epsilon(1e-12));
   const auto in_metres = arc("c.obj", {"--unit", "m"});
-  CHECK(in_metres[0].x == doctest::Approx(1e-3 * tangent_arc[0].x).epsilon(1e-12));  // read as millimetres
+  CHECK(in_metres[0].x == approx(1e-3 * tangent_arc[0].x).epsilon(1e-12));  // read as millimetres
   for (const std::vector<std::string>& wrong : {std::vector<std::string>{"arc", "--segments", "1"},
                                                 {"arc", "--segments", "10001"},
                                                 {"arc", "--rounding-mm", "1"},
@@ -86,9 +88,9 @@ TEST_CASE("an exact arc comes back from its file as the circle that it is, and a
   REQUIRE(polygon);
   REQUIRE(polygon->exact);
   const tangent::ExactArc expected = *tangent::ArcStimulus{}.exact().exact;
-  CHECK(polygon->exact->radius_m == doctest::Approx(expected.radius_m).epsilon(1e-15));
+  CHECK(polygon->exact->radius_m == approx(expected.radius_m).epsilon(1e-15));
   CHECK(polygon->exact->half_angle_rad == expected.half_angle_rad);
-  CHECK(polygon->exact->run_out_m == doctest::Approx(expected.run_out_m).epsilon(1e-15));
+  CHECK(polygon->exact->run_out_m == approx(expected.run_out_m).epsilon(1e-15));
   CHECK(polygon->vertices.size() >= 65);
   std::string text = read_text(file);
   text.replace(text.find("# exact arc: "), 13, "# exact arc: x");

@@ -1,4 +1,5 @@
 // workbench solve on 2D scenes, run as a process.
+#include "tests/support/approx.h"
 #include "tests/support/process.h"
 
 #include <doctest/doctest.h>
@@ -8,6 +9,7 @@
 #include <sstream>
 
 using namespace tangent::testing;
+using tangent::test::approx;
 
 namespace {
 
@@ -63,9 +65,9 @@ TEST_CASE("solve takes a CSV polygon as it takes a mesh, with every method, and 
     CHECK(summary.at("statuses").at("free") == 0);
     CHECK(summary.at("statuses").at("unconverged") == 0);
     const auto row = fields_of(read_text(scene.ticks), 51);  // above the middle vertex
-    CHECK(std::stod(row.at(6)) == doctest::Approx(0.0).scale(1.0));
+    CHECK(std::stod(row.at(6)) == approx(0.0).scale(1.0));
     CHECK(std::stod(row.at(8)) == 0.0);
-    CHECK(std::stod(row.at(10)) == doctest::Approx(1.0));
+    CHECK(std::stod(row.at(10)) == approx(1.0));
   }
 }
 
@@ -76,7 +78,7 @@ TEST_CASE("solve takes an OBJ polyline in its unit") {
   const auto csv = fields_of(read_text(scene.ticks), 30);
   REQUIRE(scene.solve({}, scene.folder.file("arc.obj")).exit_code == 0);
   const auto obj = fields_of(read_text(scene.ticks), 30);
-  CHECK(std::stod(csv.at(12)) == doctest::Approx(std::stod(obj.at(12))).epsilon(1e-9));
+  CHECK(std::stod(csv.at(12)) == approx(std::stod(obj.at(12))).epsilon(1e-9));
 }
 
 TEST_CASE("solve names conditions and the local centre - a held display parks at its centre") {

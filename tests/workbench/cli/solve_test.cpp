@@ -1,5 +1,6 @@
 // workbench solve, run as a process: its files, its options, and errors for bad ones.
 #include "core/io/ticks_file.h"
+#include "tests/support/approx.h"
 #include "tests/support/process.h"
 
 #include <doctest/doctest.h>
@@ -16,6 +17,7 @@
 #include <thread>
 
 using namespace tangent::testing;
+using tangent::test::approx;
 
 namespace {
 
@@ -92,7 +94,7 @@ TEST_CASE("every pose becomes a line, in order, converged, with the promised col
     CHECK(rows[i][column("status")] == "face");
     CHECK(rows[i][column("event")] == (i == 1 ? "first" : "none"));
     CHECK(number(rows[i][column("error_m")]) < 1e-6);
-    CHECK(number(rows[i][column("penetration_m")]) == doctest::Approx(1e-3).epsilon(0.1));
+    CHECK(number(rows[i][column("penetration_m")]) == approx(1e-3).epsilon(0.1));
     CHECK(number(rows[i][column("force_x_n")]) > 0.0);
   }
   CHECK(scene.folder.entry_count() == 4);  // mesh, poses, ticks and what their columns are: nothing else left behind
@@ -115,7 +117,7 @@ TEST_CASE("the summary agrees with the ticks") {
   CHECK(summary["interrupted"] == false);
   CHECK(summary["statuses"]["face"] == statuses["face"]);
   CHECK(summary["events"]["first"] == 1);
-  CHECK(summary["iterations"]["all"]["mean"].get<double>() == doctest::Approx(iterations / 200.0).epsilon(1e-12));
+  CHECK(summary["iterations"]["all"]["mean"].get<double>() == approx(iterations / 200.0).epsilon(1e-12));
   CHECK(summary["iterations"]["event_free"]["count"] == 199);
   CHECK(summary["max_error_m"] == error);
   CHECK(summary["solve_ns"]["max"] == slowest);
@@ -178,7 +180,7 @@ TEST_CASE("options override the preset file, which overrides the built-in values
               .exit_code == 0);
   const nlohmann::json values = scene.summary()["preset"]["values"];
   CHECK(values["solver"]["method"] == "newton");
-  CHECK(values["solver"]["tolerance_m"].get<double>() == doctest::Approx(1e-7).epsilon(1e-12));
+  CHECK(values["solver"]["tolerance_m"].get<double>() == approx(1e-7).epsilon(1e-12));
   CHECK(values["finger"]["shape"] == "sphere");
   CHECK(values["finger"]["radius_m"] == 0.0125);
   CHECK(values["force"]["stiffness_n_per_m"] == 100.0);

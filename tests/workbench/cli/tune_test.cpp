@@ -2,6 +2,7 @@
 #include "core/io/preset_file.h"
 #include "core/lab/gains/gain_tuning.h"
 #include "core/preset/schema.h"
+#include "tests/support/approx.h"
 #include "tests/support/paths.h"
 #include "tests/support/process.h"
 #include "workbench/cli/mesh_options.h"
@@ -17,6 +18,7 @@
 
 using namespace tangent;
 using namespace tangent::testing;
+using tangent::test::approx;
 
 namespace {
 
@@ -258,7 +260,7 @@ TEST_CASE("exploration poses are the same every time, 1 ms apart, and press, at 
       constexpr std::size_t kStretch = 20;  // ticks: corners of the path are rounded within less
       for (std::size_t i = kStretch; i < a->poses.size(); ++i) {
         CHECK(a->poses[i].finger.position == b->poses[i].finger.position);
-        CHECK(a->poses[i].t_s - a->poses[i - 1].t_s == doctest::Approx(1e-3));
+        CHECK(a->poses[i].t_s - a->poses[i - 1].t_s == approx(1e-3));
         double length = 0.0;
         for (std::size_t j = i - kStretch + 1; j <= i; ++j)
           length += glm::length(a->poses[j].finger.position - a->poses[j - 1].finger.position);
@@ -268,8 +270,8 @@ TEST_CASE("exploration poses are the same every time, 1 ms apart, and press, at 
       MESSAGE(std::string(kExplorationNames[static_cast<std::size_t>(kind)])
               << ": " << slowest << " to " << fastest << " m/s");
       const bool varied = pace == ExplorationPace::varied;
-      CHECK(slowest == doctest::Approx(varied ? 0.05 : 0.1).epsilon(0.2));
-      CHECK(fastest == doctest::Approx(varied ? 0.15 : 0.1).epsilon(0.2));
+      CHECK(slowest == approx(varied ? 0.05 : 0.1).epsilon(0.2));
+      CHECK(fastest == approx(varied ? 0.15 : 0.1).epsilon(0.2));
     }
   }
 }
@@ -288,8 +290,8 @@ TEST_CASE("the varied pace goes over all depths from 0.4 to 1.6 mm, at every spe
     shallowest = std::min(shallowest, depth);
     ++met[{depth > 1e-3, glm::length(at - from) > 1e-4}];
   }
-  CHECK(deepest == doctest::Approx(1.6e-3).epsilon(0.03));
-  CHECK(shallowest == doctest::Approx(0.4e-3).epsilon(0.05));
+  CHECK(deepest == approx(1.6e-3).epsilon(0.03));
+  CHECK(shallowest == approx(0.4e-3).epsilon(0.05));
   for (const int deep : {0, 1})
     for (const int fast : {0, 1}) CHECK(met[{deep, fast}] > static_cast<int>(explored->poses.size()) / 10);
 }

@@ -2,6 +2,7 @@
 #include "core/io/pose_file.h"
 #include "core/io/preset_file.h"
 #include "core/lab/objects/generate.h"
+#include "tests/support/approx.h"
 #include "tests/support/temp_folder.h"
 #include "workbench/embed/c_handle.h"
 #include "workbench/embed/tangent_c.h"
@@ -16,6 +17,7 @@
 #include <vector>
 
 using namespace tangent;
+using namespace tangent::test;
 using tangent::testing::TempFolder;
 
 namespace {
@@ -98,7 +100,7 @@ TEST_CASE("a tick in C is the tick in C++, and many in turn are those one by one
     CHECK(singly[i].status == static_cast<std::int32_t>(out.status));
     CHECK(singly[i].tick == i);
   }
-  CHECK(singly[0].penetration_m == doctest::Approx(1e-3));
+  CHECK(singly[0].penetration_m == approx(1e-3));
   CHECK(singly[0].status == TANGENT_FACE);
   REQUIRE(tangent_reset(made.stepper) == TANGENT_OK);
   REQUIRE(tangent_step_many(made.stepper, made.preset, path.data(), together.data(), path.size()) == TANGENT_OK);
@@ -397,7 +399,7 @@ TEST_CASE("a 2D scene takes round fingers, and has no mesh to audit") {
   in.position_m[1] = 0.039;
   tangent_output out = TANGENT_OUTPUT_INIT;
   CHECK(tangent_step(made.stepper, made.preset, &in, &out) == TANGENT_OK);
-  CHECK(out.penetration_m == doctest::Approx(1e-3));
+  CHECK(out.penetration_m == approx(1e-3));
   tangent_mesh_audit audit = TANGENT_MESH_AUDIT_INIT;
   CHECK(tangent_audit(made.scene, &audit) == TANGENT_FAILED);
   REQUIRE(tangent_set_value(made.preset, "finger.shape", 3.0) == TANGENT_OK);

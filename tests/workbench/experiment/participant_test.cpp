@@ -1,4 +1,5 @@
 #include "workbench/experiment/participant.h"
+#include "tests/support/approx.h"
 #include "tests/support/paths.h"
 
 #include <doctest/doctest.h>
@@ -6,6 +7,8 @@
 #include <cmath>
 
 namespace tangent::experiment {
+
+using test::approx;
 namespace {
 
 Protocol naming_protocol() {
@@ -40,9 +43,9 @@ TEST_CASE("one who names by a table takes each object for another as often as it
       touching += row.touching_s;
     }
   }
-  CHECK(right / trials == doctest::Approx(0.75).epsilon(0.03));
+  CHECK(right / trials == approx(0.75).epsilon(0.03));
   CHECK(right + other == trials);
-  CHECK(touching / seconds == doctest::Approx(0.7).epsilon(0.05));
+  CHECK(touching / seconds == approx(0.7).epsilon(0.05));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // Both experiments, moment by moment.
+#include "tests/support/approx.h"
 #include "tests/support/paths.h"
 #include "workbench/experiment/participant.h"
 
@@ -8,6 +9,8 @@
 #include <set>
 
 namespace tangent::experiment {
+
+using test::approx;
 namespace {
 
 Protocol protocol_named(const char* name) {
@@ -77,7 +80,7 @@ TEST_CASE("a comparison: feel, raise, Enter, feel, raise, answer, Enter") {
   CHECK(row->reference == (first_segments == 0 ? 1 : 2));
   CHECK(row->right == (row->reference == 2));
   CHECK(row->trial == 0);
-  CHECK(row->second_touching_s == doctest::Approx(1.5));
+  CHECK(row->second_touching_s == approx(1.5));
   CHECK(row->second_s >= 1.5);
   CHECK(run->shown().phase == Phase::first);
 }
@@ -117,8 +120,8 @@ TEST_CASE("an object: guided, a second at the start, a ding, one key, no way bac
   CHECK(row->object == object);
   CHECK(row->answer == "sphere");
   CHECK(row->right == (object == "sphere"));
-  CHECK(row->since_touch_s == doctest::Approx(4.3));
-  CHECK(row->touching_s == doctest::Approx(3.1));  // the moment of leaving counts to the touch
+  CHECK(row->since_touch_s == approx(4.3));
+  CHECK(row->touching_s == approx(3.1));  // the moment of leaving counts to the touch
   CHECK(run->shown().phase == Phase::guide);
 }
 
@@ -135,8 +138,8 @@ TEST_CASE("a clock that jumps back or stands still makes no negative times") {
   run->advance({53.0, true, 0.1, Key::none, 0});
   const auto row = run->advance({53.0, false, 0.1, Key::digit, 1});
   REQUIRE(row);
-  CHECK(row->since_touch_s == doctest::Approx(1.0));
-  CHECK(row->touching_s == doctest::Approx(1.0));
+  CHECK(row->since_touch_s == approx(1.0));
+  CHECK(row->touching_s == approx(1.0));
 }
 
 TEST_CASE("sessions end by themselves, blocks have a rest between, each kind of feedback its practice") {
@@ -218,7 +221,7 @@ TEST_CASE("each condition is one staircase, in the participant's order") {
   take_part(*run, known_comparer(), 1, [&](const ComparisonRow& row) {
     if (order.empty() || order.back() != row.condition) order.push_back(row.condition);
     reversals += row.reversal;
-    CHECK(row.angle_deg == doctest::Approx(51.68 / (row.segments - 1)).epsilon(1e-3));
+    CHECK(row.angle_deg == approx(51.68 / (row.segments - 1)).epsilon(1e-3));
   });
   CHECK(order.size() == 4);
   CHECK(reversals == 44);

@@ -3,6 +3,7 @@
 #include "workbench/experiment/psychometric.h"
 
 #include "core/base/split_mix.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -12,6 +13,8 @@
 #include <vector>
 
 namespace tangent::experiment {
+
+using test::approx;
 namespace {
 
 /// Answers, r right and w wrong, and the levels that were shown.
@@ -73,7 +76,7 @@ TEST_CASE("eleven reversals end it, the last six are the threshold") {
   }
   CHECK(staircase.settled());
   CHECK(staircase.reversals().size() == 11);
-  CHECK(staircase.threshold() == doctest::Approx(55.0));
+  CHECK(staircase.threshold() == approx(55.0));
 }
 
 TEST_CASE("every step shows another number of segments, but at the ends") {
@@ -124,7 +127,7 @@ TEST_CASE("it stays within its ends, and one that never turns is ended") {
 
 TEST_CASE("with small steps it stays where seven of ten answers are right") {
   // Levitt's 70.7 %: the share of right answers over long runs.
-  CHECK(balance_point(StaircaseRule{}) == doctest::Approx(0.70710678));
+  CHECK(balance_point(StaircaseRule{}) == approx(0.70710678));
   StaircaseRule rule;
   rule.small_step = rule.large_step = 1.03;
   rule.reversals = 2000;
@@ -141,7 +144,7 @@ TEST_CASE("with small steps it stays where seven of ten answers are right") {
     staircase.answer(answer);
   }
   MESSAGE("right: ", right / staircase.trials(), " of ", staircase.trials());
-  CHECK(sum / staircase.trials() == doctest::Approx(0.7071).epsilon(0.01));
+  CHECK(sum / staircase.trials() == approx(0.7071).epsilon(0.01));
 }
 
 TEST_CASE("measure: where the rule settles, by steps" * doctest::skip()) {
@@ -176,11 +179,10 @@ TEST_CASE("measure: where the rule settles, by steps" * doctest::skip()) {
 
 TEST_CASE("the psychometric function falls from right to guessing, and is undone") {
   const Psychometric function{80.0, 0.35, 0.02};
-  CHECK(function.right(0.01) == doctest::Approx(0.98));
-  CHECK(function.right(1e9) == doctest::Approx(0.5));
-  CHECK(function.right(80.0) == doctest::Approx(0.74));
-  for (const double right : {0.55, 0.7071, 0.9})
-    CHECK(function.right(function.segments_at(right)) == doctest::Approx(right));
+  CHECK(function.right(0.01) == approx(0.98));
+  CHECK(function.right(1e9) == approx(0.5));
+  CHECK(function.right(80.0) == approx(0.74));
+  for (const double right : {0.55, 0.7071, 0.9}) CHECK(function.right(function.segments_at(right)) == approx(right));
 }
 
 }  // namespace

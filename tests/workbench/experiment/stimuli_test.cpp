@@ -5,6 +5,7 @@
 #include "core/io/rendering_condition.h"
 #include "core/lab/measure/perception.h"
 #include "core/tick/step.h"
+#include "tests/support/approx.h"
 #include "tests/support/paths.h"
 #include "workbench/evidence/made_mesh.h"
 #include "workbench/recording/scene_bytes.h"
@@ -15,6 +16,8 @@
 #include <set>
 
 namespace tangent::experiment {
+
+using test::approx;
 namespace {
 
 Protocol shipped_protocol(const std::string& name) {
@@ -67,7 +70,7 @@ TEST_CASE("arcs of the shipped protocol: the exact one and segments, under each 
       // The middle of the arc is at the device's origin, a finger of 20 mm above it 1 mm deep; three segments have
       // their corners elsewhere, and the middle of one, which touches the arc, there.
       const TickOutput out = felt_at(*arc, {0.0, 0.0, 0.019});
-      CHECK(out.force_n.z == doctest::Approx(0.8).epsilon(0.2));
+      CHECK(out.force_n.z == approx(0.8).epsilon(0.2));
       CHECK(std::abs(out.force_n.x) + std::abs(out.force_n.y) < 0.05);
       CHECK(felt_at(*arc, {0.0, 0.0, 0.030}).force_n == Vec3(0.0));
     }

@@ -1,6 +1,7 @@
 // The window's frames without a window, driven like a user would. Checks the model's state.
 #include "tests/workbench/gui/running_app.h"
 
+#include "tests/support/approx.h"
 #include "tests/support/temp_folder.h"
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <tuple>
 
 using namespace tangent;
+using namespace tangent::test;
 using tangent::test::fresh_folder;
 using tangent::test::HeadlessApp;
 using tangent::test::RunningApp;
@@ -104,10 +106,10 @@ TEST_CASE("splitters give room to their neighbours") {
   RunningApp ui;
   const float left = ui.model().window().sizes().left;
   ui.drag("splitter/left", {40.0f, 0.0f});
-  CHECK(ui.model().window().sizes().left == doctest::Approx(left + 40.0f));
+  CHECK(ui.model().window().sizes().left == approx(left + 40.0f));
   const float view = ui.app().items().find("view")->max.y;
   ui.drag("splitter/plots", {0.0f, -30.0f});
-  CHECK(ui.app().items().find("view")->max.y == doctest::Approx(view - 30.0f));
+  CHECK(ui.app().items().find("view")->max.y == approx(view - 30.0f));
 }
 
 TEST_CASE("frames build at any size and scale, with and without history, for every method") {
@@ -198,7 +200,7 @@ TEST_CASE(
                          [](const auto& m) { return testing::contains(m.text, "Unit of the file"); });
   };
   ui.frames(3);
-  CHECK(longest_mm() == doctest::Approx(0.06));
+  CHECK(longest_mm() == approx(0.06));
   CHECK(warnings() == 1);
   for (const char* title : {"Iterations", "Smoothness as felt", "Map"})
     ui.model().window().open_sections()[title] = false;
@@ -206,7 +208,7 @@ TEST_CASE(
   ui.frames(2);
   ui.click("mesh/unit");
   ui.click("mesh/unit/m");
-  CHECK(longest_mm() == doctest::Approx(60.0));
+  CHECK(longest_mm() == approx(60.0));
   CHECK(warnings() == 1);
   const auto type_side = [&](const char* text) {
     ui.click("mesh/fit_mm");
@@ -215,9 +217,9 @@ TEST_CASE(
     ui.frames(2);
   };
   type_side("80");
-  CHECK(longest_mm() == doctest::Approx(80.0));
+  CHECK(longest_mm() == approx(80.0));
   type_side("-3");
-  CHECK(longest_mm() == doctest::Approx(80.0));
+  CHECK(longest_mm() == approx(80.0));
   type_side("0");
-  CHECK(longest_mm() == doctest::Approx(60.0));
+  CHECK(longest_mm() == approx(60.0));
 }

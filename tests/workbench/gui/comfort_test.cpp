@@ -2,6 +2,7 @@
 #include "tests/support/paths.h"
 #include "tests/workbench/gui/headless_app.h"
 
+#include "tests/support/approx.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/temp_folder.h"
 #include "workbench/gui/panels/command_match.h"
@@ -15,6 +16,7 @@
 #include <set>
 
 using namespace tangent;
+using namespace tangent::test;
 using tangent::test::HeadlessApp;
 
 namespace {
@@ -298,11 +300,11 @@ TEST_CASE(
     ui.frame();
   }
   HeadlessApp ui(options);
-  CHECK(ui.model().window().sizes().left == doctest::Approx(LayoutSizes{}.left + 40.0f));
+  CHECK(ui.model().window().sizes().left == approx(LayoutSizes{}.left + 40.0f));
   CHECK(ui.app().items().find("finger/radius_m") == nullptr);
   CHECK(ui.model().window().favourites() == std::vector<std::string>{"solver.gain_overall"});
   CHECK(ui.model().window().theme() == Theme::light);
-  CHECK(ui.model().window().ui_scale() == doctest::Approx(1.2f));
+  CHECK(ui.model().window().ui_scale() == approx(1.2f));
   CHECK(ui.model().view().camera.y_up);
   CHECK(ui.model().window().settings().recent_meshes == std::vector<std::string>{"icosphere"});
   ui.model().window().reset_layout();
@@ -326,7 +328,7 @@ TEST_CASE(
     CHECK(testing::contains(ui.model().messages().all().front().text, bad));
     ui.model().window().keep_settings({});
     CHECK(testing::read_text(bad) == text);
-    CHECK(read_window_settings(options.settings)->text_size == doctest::Approx(1.5));
+    CHECK(read_window_settings(options.settings)->text_size == approx(1.5));
     bad = folder.file("window.toml.bad2");
   }
 }
@@ -373,7 +375,7 @@ TEST_CASE("a camera survives the clipboard digit by digit, and rubbish is refuse
   ImGui::GetIO().KeyShift = false;
   CHECK(ui.model().view().camera.target == before.target);
   CHECK(ui.model().view().camera.distance_m == before.distance_m);
-  CHECK(ui.model().view().camera.yaw_rad == doctest::Approx(before.yaw_rad).epsilon(1e-15));
+  CHECK(ui.model().view().camera.yaw_rad == approx(before.yaw_rad).epsilon(1e-15));
   CHECK_FALSE(parse_camera("camera target_m 0 0 0 distance_m -1 yaw_deg 0 pitch_deg 0 up z", before).has_value());
   CHECK_FALSE(parse_camera("camera target_m nan 0 0 distance_m 1 yaw_deg 0 pitch_deg 0 up z", before).has_value());
   CHECK_FALSE(parse_camera("hello", before).has_value());

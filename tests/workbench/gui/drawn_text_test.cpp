@@ -1,4 +1,5 @@
 #include "tests/workbench/gui/drawn_text.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 #include <imgui_internal.h>
@@ -258,7 +259,7 @@ TEST_CASE("texts that lie over one another, are cut or too pale are found, and o
   CHECK(all[2].cut_right() < 0.0f);
   CHECK(all[6].ink == black);
   const std::vector<double> contrast = contrasts(all, {0.0f, 0.0f, 0.0f, 1.0f});
-  CHECK(contrast[0] == doctest::Approx(21.0).epsilon(0.01));
+  CHECK(contrast[0] == approx(21.0).epsilon(0.01));
   CHECK(contrast[3] < 4.5);
   CHECK(contrast[4] < 4.5);
   CHECK(contrast[6] > 20.0);

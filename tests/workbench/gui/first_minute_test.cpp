@@ -1,4 +1,5 @@
 // The first minute: five steps on the first start, and an example for every job.
+#include "tests/support/approx.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/temp_folder.h"
 #include "tests/workbench/gui/running_app.h"
@@ -7,6 +8,7 @@
 #include <imgui_internal.h>
 
 using namespace tangent;
+using namespace tangent::test;
 using tangent::test::HeadlessApp;
 using tangent::test::RunningApp;
 
@@ -72,9 +74,9 @@ TEST_CASE("every step shows what it says: the paper's method with a gain that fa
     const Preset& preset = ui.model().presets().current();
     if (step == 0) CHECK(ui.model().view().toggles.smooth_surface);
     if (step == 1) CHECK(preset.solver.method == Method::paper);
-    if (step == 1) CHECK(preset.solver.gain_curvature_m == doctest::Approx(3e-3));
+    if (step == 1) CHECK(preset.solver.gain_curvature_m == approx(3e-3));
     if (step == 2) CHECK(ui.model().time().paused());
-    if (step == 3) CHECK(preset.solver.gain_curvature_m == doctest::Approx(20e-3));
+    if (step == 3) CHECK(preset.solver.gain_curvature_m == approx(20e-3));
     if (step == 4) CHECK(ui.app().items().find("palette/text") != nullptr);
     if (step < 4) ui.click("first/next");
   }

@@ -1,4 +1,5 @@
 // Text from 80 to 200 % in windows from 900 x 600 up: nothing lies over something else, and nothing sticks out.
+#include "tests/support/approx.h"
 #include "tests/support/temp_folder.h"
 #include "tests/workbench/gui/running_app.h"
 
@@ -10,6 +11,7 @@
 #include <vector>
 
 using namespace tangent;
+using namespace tangent::test;
 using tangent::test::HeadlessApp;
 using tangent::test::RunningApp;
 
@@ -110,12 +112,12 @@ TEST_CASE("columns and plots that were dragged are shares of the window in the n
   }
   {
     HeadlessApp ui(options, 1920.0f, 1080.0f);
-    CHECK(ui.model().window().sizes().left == doctest::Approx(576.0f));
-    CHECK(ui.model().window().sizes().right == doctest::Approx(480.0f));
-    CHECK(ui.model().window().sizes().plots == doctest::Approx(270.0f));
+    CHECK(ui.model().window().sizes().left == approx(576.0f));
+    CHECK(ui.model().window().sizes().right == approx(480.0f));
+    CHECK(ui.model().window().sizes().plots == approx(270.0f));
   }
   HeadlessApp back(options, 1280.0f, 720.0f);
-  CHECK(back.model().window().sizes().left == doctest::Approx(384.0f));
+  CHECK(back.model().window().sizes().left == approx(384.0f));
 }
 
 TEST_CASE("the table of iterations keeps its columns and its height - default layout forgets them") {

@@ -1,10 +1,12 @@
 // The window without a mouse: Tab, F6, Enter and the arrows reach and set everything.
+#include "tests/support/approx.h"
 #include "tests/workbench/gui/running_app.h"
 
 #include <cmath>
 #include <set>
 
 using namespace tangent;
+using namespace tangent::test;
 using tangent::test::HeadlessApp;
 using tangent::test::RunningApp;
 
@@ -89,7 +91,7 @@ TEST_CASE("every value of the preset is set with the keyboard: the arrows slide,
   ui.type("13.5");
   ui.key(HeadlessApp::kEnter);
   ui.frames(2);
-  CHECK(ui.model().presets().current().solver.gain_curvature_m == doctest::Approx(13.5e-3));
+  CHECK(ui.model().presets().current().solver.gain_curvature_m == approx(13.5e-3));
 }
 
 TEST_CASE("Enter presses what has the keyboard: buttons, sections, menus with their items, lists") {

@@ -1,10 +1,12 @@
 // Scripts: what a person does in the window, line by line; and what is said where a line can't be done.
+#include "tests/support/approx.h"
 #include "tests/support/temp_folder.h"
 #include "tests/workbench/gui/running_app.h"
 
 #include <algorithm>
 
 using namespace tangent;
+using namespace tangent::test;
 using tangent::test::HeadlessApp;
 using tangent::test::RunningApp;
 
@@ -68,8 +70,8 @@ say done
 expect message done
 )") == "");
   CHECK(ui.model().window().theme() == Theme::light);
-  CHECK(ui.model().window().ui_scale() == doctest::Approx(1.2f));
-  CHECK(ui.model().presets().current().solver.gain_curvature_m == doctest::Approx(20e-3));
+  CHECK(ui.model().window().ui_scale() == approx(1.2f));
+  CHECK(ui.model().presets().current().solver.gain_curvature_m == approx(20e-3));
   CHECK(ui.model().map().logarithmic());
   CHECK(std::any_of(ui.model().time().bookmarks().all().begin(), ui.model().time().bookmarks().all().end(),
                     [](const Bookmark& mark) { return mark.note == "before"; }));
@@ -87,8 +89,8 @@ TEST_CASE("a widget is pressed and a field filled wherever it is: folded, scroll
   CHECK(run_script(ui, folder, "say an apple\npress log/clear\n") == "");
   CHECK(ui.model().messages().all().empty());
   CHECK(run_script(ui, folder, "hand speed 35\nenter mesh/fit_mm 80\nenter presets/note worth keeping\n") == "");
-  CHECK(ui.model().devices().session()->hand().speed_m_per_s == doctest::Approx(0.035));
-  CHECK(ui.model().scene().fit_m().value() == doctest::Approx(0.08));
+  CHECK(ui.model().devices().session()->hand().speed_m_per_s == approx(0.035));
+  CHECK(ui.model().scene().fit_m().value() == approx(0.08));
   CHECK(run_script(ui, folder, "enter solver/gain_overall 0.75\nenter solver/method newton\n") == "");
   CHECK(ui.model().presets().current().solver.gain_overall == 0.75);
   CHECK(ui.model().presets().current().solver.method == Method::newton);
@@ -146,13 +148,13 @@ TEST_CASE("the palette is a console: it runs lines with values, says why it can'
     ui.frames(2);
   };
   run("curvature gain 12");
-  CHECK(ui.model().presets().current().solver.gain_curvature_m == doctest::Approx(12e-3));
+  CHECK(ui.model().presets().current().solver.gain_curvature_m == approx(12e-3));
   CHECK(ui.app().items().find("palette/text") == nullptr);
   run("method newton");
   CHECK(ui.model().presets().current().solver.method == Method::newton);
   run("curvature gain 1e9");
   CHECK(ui.app().items().find("palette/problem") != nullptr);
-  CHECK(ui.model().presets().current().solver.gain_curvature_m == doctest::Approx(12e-3));
+  CHECK(ui.model().presets().current().solver.gain_curvature_m == approx(12e-3));
   ui.key(HeadlessApp::kEscape);
   ui.frames(2);
   // Up: the line before, and the one before that.
@@ -164,7 +166,7 @@ TEST_CASE("the palette is a console: it runs lines with values, says why it can'
   ui.key(kUp);
   ui.key(HeadlessApp::kEnter);
   ui.frames(2);
-  CHECK(ui.model().presets().current().solver.gain_curvature_m == doctest::Approx(12e-3));
+  CHECK(ui.model().presets().current().solver.gain_curvature_m == approx(12e-3));
   CHECK(ui.model().presets().current().solver.method != Method::newton);
   // Without its value, the line is put into the box and waits for it.
   ui.chord('P');

@@ -1,5 +1,6 @@
 #include "workbench/recording/compare_recordings.h"
 
+#include "tests/support/approx.h"
 #include "tests/workbench/recording/recording_fixture.h"
 
 #include <cmath>
@@ -80,12 +81,12 @@ TEST_CASE("one changed value is found with its tick, and judged by the tolerance
   CompareRecordingsOptions options;
   const RecordingsCompared c = compared(compare_fully(a, b, options));
   CHECK(c.outcome == CompareOutcome::different);
-  CHECK(of(c, "force").at_most == doctest::Approx(0.5));
+  CHECK(of(c, "force").at_most == approx(0.5));
   CHECK(of(c, "force").worst_tick == 1777);
   CHECK(of(c, "force").over == 1);
-  CHECK(of(c, "force").rms == doctest::Approx(0.5 / std::sqrt(3000.0)));
+  CHECK(of(c, "force").rms == approx(0.5 / std::sqrt(3000.0)));
   CHECK(of(c, "display").over == 0);
-  CHECK(of(c, "display").at_most == doctest::Approx(4e-6));
+  CHECK(of(c, "display").at_most == approx(4e-6));
   CHECK(c.worst()->name == "force");
   options.tolerance.force_n = 0.6;
   CHECK(compared(compare_fully(a, b, options)).outcome == CompareOutcome::same);
@@ -103,7 +104,7 @@ TEST_CASE("long recordings are compared by two threads, which find what one woul
   const RecordingsCompared c = compared(compare_fully(a, b, {}));
   CHECK(c.compared == 1 << 14);
   CHECK(of(c, "force").over == 2);
-  CHECK(of(c, "force").rms == doctest::Approx(0.25 * std::sqrt(2.0 / (1 << 14))));
+  CHECK(of(c, "force").rms == approx(0.25 * std::sqrt(2.0 / (1 << 14))));
   CHECK(c.spectrum_a.windows == 2 * 15);  // each half of 8,192 ticks
   CHECK(of(c, "display").at_most == 0.0);
 }

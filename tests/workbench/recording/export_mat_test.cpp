@@ -1,3 +1,4 @@
+#include "tests/support/approx.h"
 #include "tests/workbench/recording/recording_fixture.h"
 #include "workbench/recording/column_spool.h"
 #include "workbench/recording/export.h"
@@ -191,7 +192,7 @@ TEST_CASE("a selection of time and channels is exported to a MATLAB file") {
   const auto variables = variables_of(mat);
   CHECK(variables.size() == 4);  // about, tick, t_s, force_z_n
   CHECK(variables.at("force_z_n")->dims[0] == 101);
-  CHECK(element<double>(variables.at("t_s"), 0) == doctest::Approx(0.2));
+  CHECK(element<double>(variables.at("t_s"), 0) == approx(0.2));
 }
 
 TEST_CASE("a MATLAB file that is interrupted or finds no room leaves nothing, and the old one as it was") {

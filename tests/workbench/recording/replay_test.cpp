@@ -1,5 +1,6 @@
 #include "workbench/recording/replay.h"
 
+#include "tests/support/approx.h"
 #include "tests/workbench/recording/recording_fixture.h"
 #include "workbench/recording/compare.h"
 
@@ -77,7 +78,7 @@ TEST_CASE("the first tick that differs is named, with its field and both values"
   CHECK(force.first->tick == 1700);
   CHECK(force.first->field == "force_z_n");
   CHECK(force.different == 2);
-  CHECK(force.largest.at("force_z_n") == doctest::Approx(1e-9).epsilon(1e-3));
+  CHECK(force.largest.at("force_z_n") == approx(1e-9).epsilon(1e-3));
   const ReplayReport digest = damaged("UPDATE tick_rows SET digest = digest + 1 WHERE tick = 99");
   CHECK(digest.first->tick == 99);
   CHECK(digest.first->field == "digest");

@@ -1,5 +1,6 @@
 #include "workbench/recording/roughness_spectrum.h"
 
+#include "tests/support/approx.h"
 #include "workbench/recording/spectrum_figure.h"
 
 #include <doctest/doctest.h>
@@ -12,6 +13,7 @@
 #include <sstream>
 
 using namespace tangent;
+using namespace tangent::test;
 
 namespace {
 
@@ -49,8 +51,8 @@ TEST_CASE("the density of a window sums to the windowed signal's power: Parseval
     display_power += w * w * (display_mm[i] - mean_display) * (display_mm[i] - mean_display);
   }
   const double bin_hz = 1000.0 / static_cast<double>(n);
-  CHECK(bin_hz * sum_of(all.force_n2_per_hz) == doctest::Approx(force_power / squares).epsilon(1e-12));
-  CHECK(bin_hz * sum_of(all.display_mm2_per_hz) == doctest::Approx(display_power / squares).epsilon(1e-12));
+  CHECK(bin_hz * sum_of(all.force_n2_per_hz) == approx(force_power / squares).epsilon(1e-12));
+  CHECK(bin_hz * sum_of(all.display_mm2_per_hz) == approx(display_power / squares).epsilon(1e-12));
 }
 
 TEST_CASE("a pure sine is a peak at its frequency, and its power is half its amplitude squared") {
@@ -70,11 +72,11 @@ TEST_CASE("a pure sine is a peak at its frequency, and its power is half its amp
     const auto peak_hz = [&](const std::vector<double>& density) {
       return found.hz[static_cast<std::size_t>(std::max_element(density.begin(), density.end()) - density.begin())];
     };
-    CHECK(peak_hz(found.force_n2_per_hz) == doctest::Approx(hz));
-    CHECK(peak_hz(found.display_mm2_per_hz) == doctest::Approx(hz));
+    CHECK(peak_hz(found.force_n2_per_hz) == approx(hz));
+    CHECK(peak_hz(found.display_mm2_per_hz) == approx(hz));
     const double expected = 0.5 * (0.2 * 0.2 + 0.3 * 0.3);
-    CHECK(bin_hz * sum_of(found.force_n2_per_hz) == doctest::Approx(expected).epsilon(1e-9));
-    CHECK(bin_hz * sum_of(found.display_mm2_per_hz) == doctest::Approx(0.5 * 4e-3 * 4e-3).epsilon(1e-9));
+    CHECK(bin_hz * sum_of(found.force_n2_per_hz) == approx(expected).epsilon(1e-9));
+    CHECK(bin_hz * sum_of(found.display_mm2_per_hz) == approx(0.5 * 4e-3 * 4e-3).epsilon(1e-9));
   }
 }
 
@@ -86,7 +88,7 @@ TEST_CASE("white noise is as dense everywhere as its variance over its band") {
   const RoughnessSpectrum found = counter.done();
   CHECK(found.windows == 389);
   for (const auto* density : {&found.force_n2_per_hz, &found.display_mm2_per_hz}) {
-    CHECK(sum_of(*density) / static_cast<double>(density->size()) == doctest::Approx(1.0 / 500.0).epsilon(0.02));
+    CHECK(sum_of(*density) / static_cast<double>(density->size()) == approx(1.0 / 500.0).epsilon(0.02));
     const auto [least, most] = std::minmax_element(density->begin(), density->end() - 1);
     CHECK(*least > 0.6 / 500.0);
     CHECK(*most < 1.5 / 500.0);

@@ -1,4 +1,5 @@
 // Figures of a page: SVG that can stand beside others.
+#include "tests/support/approx.h"
 #include "tests/workbench/report/report_fixture.h"
 #include "workbench/report/report_figures.h"
 
@@ -70,7 +71,7 @@ TEST_CASE("the curves over time hold the least and largest of every part, and a 
   };
   CHECK(table.rows[0][column("force_n")] == 1.0);
   CHECK(table.rows[1][column("force_n")] == 3.0);
-  CHECK(table.rows[1][column("penetration_mm")] == doctest::Approx(2.0));
+  CHECK(table.rows[1][column("penetration_mm")] == approx(2.0));
   CHECK(table.rows[0][column("error_um")] == 1e-9);  // 0 on a logarithmic axis
   CHECK(table.rows[1][column("planes")] == 7.0);
   CHECK(letter_of(0) == "A");
@@ -80,8 +81,8 @@ TEST_CASE("the curves over time hold the least and largest of every part, and a 
 TEST_CASE("quantiles of times are within 2 %, and of equal times exact") {
   TimeSpread times;
   for (int i = 1; i <= 1000; ++i) times.add(1e3 * i);
-  CHECK(times.quantile_ns(0.5) == doctest::Approx(500e3).epsilon(0.02));
-  CHECK(times.quantile_ns(0.99) == doctest::Approx(990e3).epsilon(0.02));
+  CHECK(times.quantile_ns(0.5) == approx(500e3).epsilon(0.02));
+  CHECK(times.quantile_ns(0.99) == approx(990e3).epsilon(0.02));
   CHECK(times.quantile_ns(1.0) == 1e6);
   TimeSpread same;
   for (int i = 0; i < 9; ++i) same.add(1e6);

@@ -1,6 +1,7 @@
 // The page: complete in itself, and every number of it what the recording says by SQL.
 #include "workbench/report/page.h"
 #include "core/lab/explain/explain_tick.h"
+#include "tests/support/approx.h"
 #include "tests/workbench/report/report_fixture.h"
 #include "workbench/report/html.h"
 #include "workbench/report/numbers.h"
@@ -70,18 +71,18 @@ TEST_CASE("every number of the overview is the recording's own, asked by SQL") {
   for (const auto& [name, sql] : asked_of) {
     CAPTURE(name);
     REQUIRE(report_sample().page["numbers"].contains(name));
-    CHECK(report_sample().page["numbers"][name].get<double>() == doctest::Approx(asked(sql)).epsilon(1e-12));
+    CHECK(report_sample().page["numbers"][name].get<double>() == approx(asked(sql)).epsilon(1e-12).scale(1e-6));
   }
   CHECK(asked("SELECT count(*) FROM ticks WHERE status = 'unconverged'") > 10.0);
   // It ran in simulated time: each period is 1 ms, all quantiles are.
-  CHECK(report_sample().page["numbers"]["r1.period_p50_ns"].get<double>() == doctest::Approx(1e6).epsilon(1e-9));
+  CHECK(report_sample().page["numbers"]["r1.period_p50_ns"].get<double>() == approx(1e6).epsilon(1e-9));
 }
 
 TEST_CASE("the page says what was touched, with which presets, and why the worst tick failed") {
   const nlohmann::json& page = report_sample().page;
   const std::string text = page["text"];
   CHECK(page["numbers"]["r1.scene0.triangles"] == 576);
-  CHECK(page["numbers"]["r1.scene0.longest_m"].get<double>() == doctest::Approx(0.110).epsilon(1e-9));
+  CHECK(page["numbers"]["r1.scene0.longest_m"].get<double>() == approx(0.110).epsilon(1e-9));
   for (const char* word :
        {"torus", "sphere of 20 mm radius", "simulated force device", "the same bits", "solver.gain_curvature_m",
         "solver.method", "from 0.6 s", "unconverged", "robust", "two-pass", "compiler"})

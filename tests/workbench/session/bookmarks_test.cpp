@@ -1,8 +1,10 @@
 #include "workbench/session/bookmarks.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
 using namespace tangent;
+using namespace tangent::test;
 
 namespace {
 
@@ -37,7 +39,7 @@ TEST_CASE("each trigger marks the tick that fired it, and calm ticks none") {
   for (std::size_t i = 0; i < expected.size(); ++i) {
     CHECK(marks.all()[i].kind == expected[i].first);
     CHECK(marks.all()[i].tick == expected[i].second);
-    CHECK(marks.all()[i].t_s == doctest::Approx(1e-3 * static_cast<double>(expected[i].second)));
+    CHECK(marks.all()[i].t_s == approx(1e-3 * static_cast<double>(expected[i].second)));
     CHECK_FALSE(marks.all()[i].note.empty());
   }
 }

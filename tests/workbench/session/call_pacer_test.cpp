@@ -1,24 +1,26 @@
 #include "workbench/session/call_pacer.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
 #include <initializer_list>
 
 using namespace tangent;
+using namespace tangent::test;
 
 TEST_CASE("ticks that a device calls have the time between the calls") {
   CallPacer pacer(1000.0);
   pacer.start();
   std::int64_t now = 5'000'000'000;
   const TickTiming first = pacer.begin(now);
-  CHECK(first.dt_s == doctest::Approx(1e-3));
+  CHECK(first.dt_s == approx(1e-3));
   CHECK(first.period_ns == 0.0);
   double t = first.t_s;
   for (const std::int64_t gap : {1'000'000, 900'000, 1'100'000, 1'499'000}) {
     now += gap;
     const TickTiming tick = pacer.begin(now);
-    CHECK(tick.dt_s == doctest::Approx(static_cast<double>(gap) * 1e-9).epsilon(1e-12));
-    CHECK(tick.t_s - t == doctest::Approx(tick.dt_s).epsilon(1e-12));
+    CHECK(tick.dt_s == approx(static_cast<double>(gap) * 1e-9).epsilon(1e-12));
+    CHECK(tick.t_s - t == approx(tick.dt_s).epsilon(1e-12));
     CHECK(tick.missed_deadlines == 0);
     t = tick.t_s;
   }
@@ -30,7 +32,7 @@ TEST_CASE("a call that comes periods late counts them as missed, and never gives
   pacer.begin(1'000'000'000);
   const TickTiming late = pacer.begin(1'004'400'000);
   CHECK(late.missed_deadlines == 3);
-  CHECK(late.lateness_ns == doctest::Approx(3.4e6));
+  CHECK(late.lateness_ns == approx(3.4e6));
   const TickTiming twice = pacer.begin(1'004'400'000);
   CHECK(twice.dt_s > 0.0);
   CHECK(twice.missed_deadlines == 0);
@@ -43,6 +45,6 @@ TEST_CASE("time goes on over a pause in the calls, without it") {
   const TickTiming before = pacer.begin(1'000'500'000);
   pacer.start();
   const TickTiming after = pacer.begin(9'000'000'000);
-  CHECK(after.t_s - before.t_s == doctest::Approx(5e-4));
+  CHECK(after.t_s - before.t_s == approx(5e-4));
   CHECK(after.missed_deadlines == 0);
 }

@@ -1,10 +1,12 @@
 #include "workbench/session/deadline_pacer.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
 #include <initializer_list>
 
 using namespace tangent;
+using namespace tangent::test;
 
 TEST_CASE("deadlines stay on the grid of the start, without adding up rounding") {
   DeadlinePacer pacer(3000.0, false);  // a period of 333,333.3 ns
@@ -46,9 +48,9 @@ TEST_CASE("time counts ticks for simulated devices and deadlines for real ones")
   const double first = ticks.begin(1'000'000).t_s, first_deadline = deadlines.begin(1'000'000).t_s;
   const TickTiming a = ticks.begin(5'000'000), b = deadlines.begin(5'000'000);
   CHECK(a.dt_s == 1e-3);
-  CHECK(a.t_s - first == doctest::Approx(1e-3));
+  CHECK(a.t_s - first == approx(1e-3));
   CHECK(b.dt_s == 4e-3);
-  CHECK(b.t_s - first_deadline == doctest::Approx(4e-3));
+  CHECK(b.t_s - first_deadline == approx(4e-3));
 }
 
 TEST_CASE("after a pause, time goes on and the pause is not counted as missed") {

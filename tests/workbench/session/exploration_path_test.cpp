@@ -2,6 +2,7 @@
 
 #include "core/io/mesh_io.h"
 #include "core/lab/objects/arc.h"
+#include "tests/support/approx.h"
 #include "tests/support/meshes.h"
 #include "tests/support/sanitized.h"
 #include "tests/workbench/session/session_fixture.h"
@@ -128,7 +129,7 @@ TEST_CASE("the fingerpad faces the surface, within its rocking") {
   double largest = 0.0;
   for (int i = 0; i < 5000; ++i) {
     const PathPose pose = path.at(i * 0.4e-3, 0.020, 1e-3);
-    CHECK(glm::length(pose.orientation) == doctest::Approx(1.0));
+    CHECK(glm::length(pose.orientation) == approx(1.0));
     const Vec3 pad = pose.orientation * Vec3(0, 0, -1);
     const double off = std::acos(std::min(1.0, glm::dot(pad, -unit(pose.position_m))));
     largest = std::max(largest, off);
@@ -154,7 +155,7 @@ TEST_CASE("a path built for one finger serves a smaller one") {
   const ExplorationPath path = ExplorationPath::build(*sphere_scene(), 0.020);
   for (int i = 0; i < 100; ++i) {
     const Vec3 centre = path.at(i * 0.01, 0.004, 0.0).position_m;
-    CHECK(glm::length(centre) == doctest::Approx(0.044).epsilon(0.01));
+    CHECK(glm::length(centre) == approx(0.044).epsilon(0.01));
   }
 }
 

@@ -1,5 +1,6 @@
 #include "workbench/session/hand_lead.h"
 
+#include "tests/support/approx.h"
 #include "tests/workbench/session/session_fixture.h"
 
 #include <doctest/doctest.h>
@@ -48,7 +49,7 @@ TEST_CASE("the hand begins off the surface, at rest, and approaches to the full 
     CHECK(glm::length(target.position_m) <= last + 1e-12);
     last = glm::length(target.position_m);
   }
-  CHECK(last == doctest::Approx(0.040 + kPad - 2e-3).epsilon(0.005));
+  CHECK(last == approx(0.040 + kPad - 2e-3).epsilon(0.005));
   CHECK(glm::length(target.velocity_m_per_s) < 1e-9);
 }
 
@@ -66,7 +67,7 @@ TEST_CASE("the hand goes along the path at its speed") {
     if (i > 0) CHECK(glm::length(target.position_m - expected) < 1e-15);
     expected = target.position_m + target.velocity_m_per_s * kTick_s;
   }
-  CHECK(way == doctest::Approx(0.1).epsilon(0.06));  // the press shortens the way a little
+  CHECK(way == approx(0.1).epsilon(0.06));  // the press shortens the way a little
 }
 
 TEST_CASE("a point far away is reached from where the finger is, at a hand's speed") {

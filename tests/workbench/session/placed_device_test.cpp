@@ -1,5 +1,6 @@
 #include "workbench/session/placed_device.h"
 
+#include "tests/support/approx.h"
 #include "tests/workbench/session/session_fixture.h"
 #include "workbench/session/session.h"
 
@@ -82,15 +83,15 @@ TEST_CASE("a placed scene is felt at the device turned, as strong, and scale tim
   REQUIRE(r.device.gate_state == GateState::armed);
   CHECK(glm::length(r.tick.input.finger.position - Vec3(0.0, top_m() - depth, 0.0)) < 1e-12);
   const Vec3 sent = b.device->commands.back().force_n, made = r.tick.output.force_n;
-  CHECK(made.y == doctest::Approx(Preset{}.force.stiffness_n_per_m * depth).epsilon(0.01));
-  CHECK(sent.x == doctest::Approx(made.y).epsilon(1e-6));
+  CHECK(made.y == approx(Preset{}.force.stiffness_n_per_m * depth).epsilon(0.01));
+  CHECK(sent.x == approx(made.y).epsilon(1e-6));
   CHECK(std::abs(sent.y) + std::abs(sent.z) < 0.02 * sent.x);
   // The record is in the scene.
   CHECK(glm::length(r.device.force_command_n - made) < 1e-6);
   // Half as stiff: the device moves twice as far for the same force.
   const double dx = placement.to_device(Vec3(0.0, top_m(), 0.0)).x - b.device->position.x;
   MESSAGE("800 N/m at scale 0.5: " << sent.x / dx << " N/m at the device, " << sent.x << " N");
-  CHECK(sent.x / dx == doctest::Approx(0.5 * Preset{}.force.stiffness_n_per_m).epsilon(0.01));
+  CHECK(sent.x / dx == approx(0.5 * Preset{}.force.stiffness_n_per_m).epsilon(0.01));
 }
 
 TEST_CASE("limits are the device's: its workspace and peak stay where they are under every placement") {
@@ -116,7 +117,7 @@ TEST_CASE("a device's frame is between it and the placement, and a finger it doe
     const ServoRecord r = b.bench.run();
     CHECK(glm::length(r.tick.input.finger.position - placement.to_scene(Vec3(0.0, 0.1, 0.3))) < 1e-14);
     const Quat wanted = senses ? placement.rotation * kQuarter : placement.rotation;
-    CHECK(std::abs(glm::dot(r.tick.input.finger.orientation, wanted)) == doctest::Approx(1.0).epsilon(1e-14));
+    CHECK(std::abs(glm::dot(r.tick.input.finger.orientation, wanted)) == approx(1.0).epsilon(1e-14));
   }
 }
 
@@ -132,7 +133,7 @@ TEST_CASE("a placement is refused while force is sent, taken after a stop, and a
   got = b.place(deep, 8);  // in the same tick as the stop
   CHECK_FALSE(got.refused);
   CHECK(got.placement == deep);
-  CHECK(b.bench.run().tick.output.penetration_m == doctest::Approx(5e-3).epsilon(0.01));
+  CHECK(b.bench.run().tick.output.penetration_m == approx(5e-3).epsilon(0.01));
   b.bench.arm();
   const ServoRecord r = b.bench.run(100);
   CHECK(r.device.gate_state == GateState::disarmed);
@@ -251,10 +252,10 @@ TEST_CASE("a placement that makes the preset too stiff for the device reduces it
   const double largest = session.force_capabilities()->largest_stiffness_n_per_m;
   REQUIRE(session.place({.scale = 7.0}));
   session.advance(3);
-  CHECK(session.preset().force.stiffness_n_per_m == doctest::Approx(largest / 7.0));
+  CHECK(session.preset().force.stiffness_n_per_m == approx(largest / 7.0));
   REQUIRE(session.place({.scale = 1.0}));
   // Until the servo has taken it, the larger of both scales holds.
-  CHECK(session.preset().force.stiffness_n_per_m == doctest::Approx(largest / 7.0));
+  CHECK(session.preset().force.stiffness_n_per_m == approx(largest / 7.0));
   session.advance(3);
   CHECK(session.preset().force.stiffness_n_per_m == 2000.0);
 }
@@ -270,7 +271,7 @@ TEST_CASE("a fitted scene, and the finger around it, is inside the device's work
     const Placement p = (*made)->status().placement;
     const Vec3 half = (*made)->force_capabilities()->workspace_half_size_m;
     const double around = size + pad_distance_m(Preset{}.finger);
-    CHECK(p.to_device(Vec3(0.0, 0.0, around)).z == doctest::Approx(0.9 * half.z).epsilon(1e-3));
+    CHECK(p.to_device(Vec3(0.0, 0.0, around)).z == approx(0.9 * half.z).epsilon(1e-3));
     CHECK(p.to_device(Vec3(0.0, around, 0.0)).y < 0.9 * half.y);
   }
 }

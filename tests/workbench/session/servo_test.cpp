@@ -1,5 +1,6 @@
 #include "workbench/session/servo.h"
 
+#include "tests/support/approx.h"
 #include "tests/workbench/session/session_fixture.h"
 
 #include <doctest/doctest.h>
@@ -52,7 +53,7 @@ TEST_CASE("a servo whose clock keeps its deadlines is never late, and measures i
     CHECK(status.late_ticks == 0);
     CHECK(status.missed_deadlines == 0);
     CHECK(status.lateness_worst_ns == 0.0);
-    CHECK(status.rate_hz == doctest::Approx(rate).epsilon(1e-6));
+    CHECK(status.rate_hz == approx(rate).epsilon(1e-6));
   }
 }
 

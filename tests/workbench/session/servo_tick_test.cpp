@@ -2,6 +2,7 @@
 
 #include "devices/simulated/simulated_contact_display.h"
 #include "devices/simulated/simulated_force_device.h"
+#include "tests/support/approx.h"
 #include "tests/workbench/session/session_fixture.h"
 
 #include <doctest/doctest.h>
@@ -124,7 +125,7 @@ TEST_CASE("a preset is applied whole at the next tick, and the record says which
   p.bench.channels.presets.put({7, stiff});
   const ServoRecord r = p.bench.run();
   CHECK(r.tick.preset_id == 7);
-  CHECK(glm::length(r.tick.output.decided_force_n) == doctest::Approx(2.0 * before).epsilon(1e-6));
+  CHECK(glm::length(r.tick.output.decided_force_n) == approx(2.0 * before).epsilon(1e-6));
   CHECK(glm::length(r.tick.output.force_n) < 1.1 * before);  // faded in
 }
 
@@ -297,12 +298,12 @@ TEST_CASE(
   preset.force.damping_n_s_per_m = 5.0;
   pressed.bench.channels.presets.put({7, preset});
   CHECK_FALSE(pressed.bench.run(50).tick.input.velocity.has_value());
-  CHECK(pressed.bench.run().tick.output.force_n.z == doctest::Approx(0.8));
+  CHECK(pressed.bench.run().tick.output.force_n.z == approx(0.8));
   pressed.device->velocity = Vec3(0.0, 0.0, -0.02);
   const ServoRecord record = pressed.bench.run(50);
   REQUIRE(record.tick.input.velocity.has_value());
   CHECK(*record.tick.input.velocity == Vec3(0.0, 0.0, -0.02));
-  CHECK(record.tick.output.decided_force_n.z == doctest::Approx(0.9));
+  CHECK(record.tick.output.decided_force_n.z == approx(0.9));
 }
 
 TEST_CASE("a stop that a tick takes is in that tick's exchange, and so is a stall before it") {

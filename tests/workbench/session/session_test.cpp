@@ -1,5 +1,6 @@
 #include "workbench/session/session.h"
 
+#include "tests/support/approx.h"
 #include "tests/workbench/session/session_fixture.h"
 #include "workbench/session/exploration_path.h"
 
@@ -114,7 +115,7 @@ TEST_CASE("driven by hand, the same calls give the same history") {
     CHECK(x.tick.input.finger.position == y.tick.input.finger.position);
     CHECK(x.tick.solve_ns == y.tick.solve_ns);
     CHECK(x.tick_ns == 0.0);
-    CHECK(x.tick.input.t_s == doctest::Approx(static_cast<double>(i) * 1e-3).epsilon(1e-12));
+    CHECK(x.tick.input.t_s == approx(static_cast<double>(i) * 1e-3).epsilon(1e-12).scale(1e-3));
   }
 }
 
@@ -150,7 +151,7 @@ TEST_CASE("a tick can be stepped under another preset") {
   REQUIRE(record.tick.output.force_n != Vec3(0.0));
   const auto output = session->re_step(record, stiff, *trace);
   REQUIRE(output);
-  CHECK(glm::length(output->decided_force_n) == doctest::Approx(2.0 * glm::length(record.tick.output.decided_force_n)));
+  CHECK(glm::length(output->decided_force_n) == approx(2.0 * glm::length(record.tick.output.decided_force_n)));
 }
 
 TEST_CASE("a tick whose scene is gone from the history says so") {

@@ -1,5 +1,6 @@
 #include "workbench/session/stroke_path.h"
 
+#include "tests/support/approx.h"
 #include "tests/workbench/session/session_fixture.h"
 
 #include <algorithm>
@@ -32,7 +33,7 @@ TEST_CASE("strokes over a sphere go left, right, forward and back down to its eq
   const StrokePath path = strokes(*scene, kPad);
   // Eight quarters of a circle about the sphere.
   const double quarter = kReach * std::numbers::pi / 2.0;
-  CHECK(path.length_m() == doctest::Approx(8.0 * quarter).epsilon(0.01));
+  CHECK(path.length_m() == approx(8.0 * quarter).epsilon(0.01));
   const auto centre = [&](double quarters) {
     return path.at(quarters / 8.0 * path.length_m(), kPad, 0.0).position_m - scene->mesh().origin();
   };

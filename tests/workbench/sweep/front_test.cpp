@@ -2,6 +2,7 @@
 
 #include "core/io/scene_file.h"
 #include "core/lab/objects/generate.h"
+#include "tests/support/approx.h"
 #include "tests/support/meshes.h"
 #include "workbench/session/exploration_poses.h"
 #include "workbench/sweep/front_search.h"
@@ -15,6 +16,8 @@
 #include <sstream>
 
 namespace tangent::sweep {
+
+using test::approx;
 namespace {
 
 Trial point(double x, double y, double missed = 0.0) {
@@ -50,9 +53,9 @@ TEST_CASE("a preset that finds no contact does not have the smallest error") {
 
 TEST_CASE("the hypervolume is the area up to the reference") {
   CHECK(hypervolume(std::vector<Trial>{point(0, 0)}, {2.0, 4.0}) == 1.0);
-  CHECK(hypervolume(std::vector<Trial>{point(1, 2)}, {2.0, 4.0}) == doctest::Approx(0.25));
+  CHECK(hypervolume(std::vector<Trial>{point(1, 2)}, {2.0, 4.0}) == approx(0.25));
   CHECK(hypervolume(std::vector<Trial>{point(0.5, 3), point(1, 1), point(1.5, 0.5)}, {2.0, 4.0}) ==
-        doctest::Approx((1.5 * 1.0 + 1.0 * 2.0 + 0.5 * 0.5) / 8.0));
+        approx((1.5 * 1.0 + 1.0 * 2.0 + 0.5 * 0.5) / 8.0));
   CHECK(hypervolume(std::vector<Trial>{point(3, 1), point(1, 1, 0.1)}, {2.0, 4.0}) == 0.0);
 }
 
@@ -84,8 +87,8 @@ TEST_CASE("objectives and constraints are told by name") {
   REQUIRE(near);
   CHECK(quick->text() == "p99_time <= 20 us");
   CHECK(near->of.name() == "error_p99_m");
-  CHECK(near->most == doctest::Approx(5e-7));
-  CHECK(parse_constraint("mean_time <= 900 ns")->most == doctest::Approx(0.9));
+  CHECK(near->most == approx(5e-7));
+  CHECK(parse_constraint("mean_time <= 900 ns")->most == approx(0.9));
   numbers.p99_counted_us = 15.0;
   CHECK(quick->holds(numbers));
   CHECK(!quick->holds(numbers, {1.0, 1.5}));  // a tick takes half as long again here
@@ -249,7 +252,7 @@ TEST_CASE("over several grounds an objective is that of the worst, or the mean, 
     sum += one.objectives[0];
   }
   CHECK(worst.objectives[0] == most);
-  CHECK(mean.objectives[0] == doctest::Approx(sum / 3.0));
+  CHECK(mean.objectives[0] == approx(sum / 3.0));
   CHECK(worst.ground_numbers[2].force_change_mean_n != worst.ground_numbers[0].force_change_mean_n);
   plan.constraints = {Constraint{plan.objectives[0], most - 1e-9}};
   CHECK(try_preset(plan, grounds, plan.base, false).missed > 0.0);
@@ -344,7 +347,7 @@ TEST_CASE("the share of a value in a range is where the range has it") {
   const FrontPlan plan = gains_plan(8);
   for (const Range& range : plan.ranges)
     for (const double share : {0.0, 0.3, 1.0})
-      CHECK(*range.share_of(range.at(share)) == doctest::Approx(share).epsilon(1e-12));
+      CHECK(*range.share_of(range.at(share)) == approx(share).epsilon(1e-12).scale(1.0));
   CHECK(!plan.ranges[0].share_of(0.49));
   CHECK(!plan.ranges[3].share_of(0.0));
   Range list = plan.ranges[0];

@@ -1,6 +1,7 @@
 #include "workbench/sweep/front_verdict.h"
 
 #include "core/lab/objects/generate.h"
+#include "tests/support/approx.h"
 #include "workbench/session/exploration_poses.h"
 
 #include <doctest/doctest.h>
@@ -9,6 +10,8 @@
 #include <cmath>
 
 namespace tangent::sweep {
+
+using test::approx;
 namespace {
 
 FrontGround held_back_ground(std::size_t ticks) {
@@ -117,8 +120,8 @@ TEST_CASE("where time is asked for it is measured, and a scale says how it is to
     CHECK(verdict.mine.objectives == verdict.simple.objectives);
     CHECK(!verdict.clearly);
   } else {
-    CHECK(verdict.mine.objectives[0] == doctest::Approx(time.ns * 1e-3));
-    CHECK(verdict.simple.objectives[0] == doctest::Approx(time.against_ns * 1e-3));
+    CHECK(verdict.mine.objectives[0] == approx(time.ns * 1e-3));
+    CHECK(verdict.simple.objectives[0] == approx(time.against_ns * 1e-3));
     CHECK(verdict.clearly == (time.ns < 0.98 * time.against_ns));
   }
   plan.constraints = {*parse_constraint("p99_time <= 1 ns")};

@@ -1,6 +1,7 @@
 #include "workbench/sweep/gain_theory.h"
 
 #include "core/lab/objects/generate.h"
+#include "tests/support/approx.h"
 #include "workbench/session/exploration_poses.h"
 
 #include <doctest/doctest.h>
@@ -8,6 +9,8 @@
 #include <algorithm>
 
 namespace tangent::sweep {
+
+using test::approx;
 namespace {
 
 std::shared_ptr<const ContactScene> object(const char* name, double rounding_m) {
@@ -64,8 +67,8 @@ TEST_CASE("on rounded edges theory's contraction is what the rule's gains leave"
   const auto theory = gain_theory(scene, with_gain(1.0, 2.0 * Preset{}.finger.reach_m()), motion);
   REQUIRE(theory);
   CHECK(theory->edge_turn > 5.0);
-  CHECK(theory->edge_theory == doctest::Approx(theory->edge_turn / (2.0 + theory->edge_turn)));
-  CHECK(theory->edge_rule == doctest::Approx(theory->edge_theory).epsilon(0.1));
+  CHECK(theory->edge_theory == approx(theory->edge_turn / (2.0 + theory->edge_turn)));
+  CHECK(theory->edge_rule == approx(theory->edge_theory).epsilon(0.1));
   CHECK(theory->grounds_found.share(tangent::Ground::tight) > 0.2);
   CHECK(!theory->causes.empty());
 }

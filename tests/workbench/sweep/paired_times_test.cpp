@@ -1,6 +1,7 @@
 #include "workbench/sweep/paired_times.h"
 
 #include "core/lab/objects/generate.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -8,6 +9,8 @@
 #include <random>
 
 namespace tangent::sweep {
+
+using test::approx;
 namespace {
 
 /// A machine as it is: a drift that goes on within a round, noise of 3 %, and now and then a run that something else
@@ -63,7 +66,7 @@ TEST_CASE("a drift within a round does not count for either") {
   std::vector<TimeRound> rounds;
   for (int i = 0; i < 6; ++i) rounds.push_back({100.0, 110.0, 121.0, 133.1});
   const PairedTime time = judge(rounds);
-  CHECK(time.ratio == doctest::Approx(1.0));
+  CHECK(time.ratio == approx(1.0));
   CHECK(time.verdict == TimeVerdict::tie);
 }
 
@@ -74,7 +77,7 @@ TEST_CASE("a clock that leaps while one side runs makes no difference sure") {
       rounds[3][side] *= leap;  // a machine that slept for hours, or a counter that was set back
       const PairedTime time = judge(rounds);
       CHECK(time.verdict == TimeVerdict::tie);
-      CHECK(time.ns == doctest::Approx(200.0).epsilon(0.3));
+      CHECK(time.ns == approx(200.0).epsilon(0.3));
     }
   }
 }

@@ -1,10 +1,13 @@
 #include "workbench/sweep/plan.h"
 
+#include "tests/support/approx.h"
 #include "tests/support/temp_folder.h"
 
 #include <doctest/doctest.h>
 
 namespace tangent::sweep {
+
+using test::approx;
 namespace {
 
 constexpr const char* kWhole = R"([plan]
@@ -42,7 +45,7 @@ TEST_CASE("a plan holds what its file says, with paths from the file's folder") 
   CHECK(plan->meshes == std::vector<std::filesystem::path>{"/somewhere/a.obj", "/b.obj"});
   CHECK(plan->poses == std::vector<std::string>{"/somewhere/walk.csv", "around"});
   CHECK(plan->metres_per_unit == 1e-2);
-  CHECK(*plan->reading.fit_m == doctest::Approx(0.08));
+  CHECK(*plan->reading.fit_m == approx(0.08));
   CHECK(plan->reading.normals == NormalSource::computed);
   CHECK(plan->reading.turn_over);
   CHECK(plan->methods == std::vector<Method>{Method::paper, Method::robust});
@@ -56,7 +59,7 @@ TEST_CASE("a plan holds what its file says, with paths from the file's folder") 
     const std::vector<double> values = range.grid();
     REQUIRE(values.size() == 4);
     CHECK(values.front() == 1e-8);
-    CHECK(values[1] == doctest::Approx(1e-7));
+    CHECK(values[1] == approx(1e-7));
     CHECK(values.back() == 1e-5);
   }
 }
@@ -76,7 +79,7 @@ TEST_CASE("a motion that is made may name its depth") {
   CHECK(made_motion("around")->kind == 0);
   CHECK(!made_motion("around")->press_m);
   CHECK(made_motion("strokes:0.5mm")->kind == 1);
-  CHECK(*made_motion("strokes:0.5mm")->press_m == doctest::Approx(5e-4));
+  CHECK(*made_motion("strokes:0.5mm")->press_m == approx(5e-4));
   for (const char* file :
        {"walk.csv", "around.csv", "around:", "around:2", "around:0mm", "around:-1mm", "around:99mm", "around:xmm", ""})
     CHECK_MESSAGE(!is_made(file), file);

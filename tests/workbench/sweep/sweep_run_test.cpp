@@ -1,8 +1,11 @@
+#include "tests/support/approx.h"
 #include "tests/workbench/sweep/sweep_fixture.h"
 
 #include <atomic>
 
 namespace tangent::sweep {
+
+using test::approx;
 namespace {
 
 using testing::SmallSweep;
@@ -71,7 +74,7 @@ TEST_CASE("a cell's numbers are those of solving its motion by itself") {
   }
   CHECK(numbers->ticks == 600);
   CHECK(numbers->unconverged == unconverged);
-  CHECK(numbers->mean_iterations == doctest::Approx(static_cast<double>(planes) / 600.0));
+  CHECK(numbers->mean_iterations == approx(static_cast<double>(planes) / 600.0));
   CHECK(numbers->compared > 0);
   CHECK(numbers->error_worst_m > 0.0);
   CHECK(numbers->error_worst_m < 1e-5);

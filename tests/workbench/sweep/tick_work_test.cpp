@@ -3,6 +3,7 @@
 #include "core/io/scene_file.h"
 #include "core/lab/measure/distribution.h"
 #include "core/lab/objects/generate.h"
+#include "tests/support/approx.h"
 #include "workbench/session/exploration_poses.h"
 
 #include <doctest/doctest.h>
@@ -13,17 +14,18 @@
 #include <sstream>
 
 namespace tangent::sweep {
+
+using test::approx;
 namespace {
 
 TEST_CASE("a tick's counted time is the sum of what it did") {
   TickOutput output;
   output.iterations = 3;
   output.triangle_changes = 2;
-  CHECK(counted_us(output, false) == doctest::Approx(kTickUs + 3.0 * kPlaneUs + 2.0 * kCrossingUs));
-  CHECK(counted_us(output, true) == doctest::Approx(counted_us(output, false) + kSearchUs));
+  CHECK(counted_us(output, false) == approx(kTickUs + 3.0 * kPlaneUs + 2.0 * kCrossingUs));
+  CHECK(counted_us(output, true) == approx(counted_us(output, false) + kSearchUs));
   output.event = TickEvent::reseed;
-  CHECK(counted_us(output, true) ==
-        doctest::Approx(kTickUs + 3.0 * kPlaneUs + 2.0 * kCrossingUs + kSearchUs + kSeedUs));
+  CHECK(counted_us(output, true) == approx(kTickUs + 3.0 * kPlaneUs + 2.0 * kCrossingUs + kSearchUs + kSeedUs));
 }
 
 /// Of one preset: counted, and the least of four passes.

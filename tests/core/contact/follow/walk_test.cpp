@@ -1,6 +1,7 @@
 // Steps along creases continue past the ends of their edges.
 #include "core/contact/follow/walk.h"
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -43,7 +44,7 @@ TEST_CASE("past the end of an edge of a cylinder's rim a step goes on along the 
       CHECK(next->feature == Feature::edge);
       CHECK(mesh.edge_kind(next->triangle, next->side) == EdgeKind::crease);
       const Vec3 gone = flat_point(mesh, *next) - end;
-      CHECK(glm::length(gone) == doctest::Approx(1e-4).epsilon(1e-9));
+      CHECK(glm::length(gone) == approx(1e-4).epsilon(1e-9));
       CHECK(glm::dot(gone, end - from) > 0.0);
       // No further than the next vertex.
       const auto far = walk_past_end(mesh, e.t, e.k, forwards, 1.0);

@@ -3,6 +3,7 @@
 
 #include "core/contact/prove/contact_hierarchy.h"
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -34,9 +35,9 @@ TEST_CASE(
   Finger sphere, ellipsoid;
   ellipsoid.shape = FingerShape::ellipsoid;
 
-  CHECK(gone_m(fresh, sphere, {Vec3(3e-4, 0.0, 0.0), turned}) == doctest::Approx(3e-4).epsilon(1e-12));
+  CHECK(gone_m(fresh, sphere, {Vec3(3e-4, 0.0, 0.0), turned}) == approx(3e-4).epsilon(1e-12));
   CHECK(gone_m(fresh, sphere, {Vec3(0.0), straight}) == 0.0);
-  CHECK(gone_m(fresh, ellipsoid, {Vec3(0.0), turned}) == doctest::Approx(1e-3 * 0.020).epsilon(1e-6));
+  CHECK(gone_m(fresh, ellipsoid, {Vec3(0.0), turned}) == approx(1e-3 * 0.020).epsilon(1e-6));
   CHECK(gone_m(fresh, ellipsoid, {Vec3(0.0), straight}) == 0.0);
   CHECK(gone_m(fresh, ellipsoid, {Vec3(0.0), glm::angleAxis(1.0, Vec3(0.0, 1.0, 0.0))}) > 1e-3);
 
@@ -44,7 +45,7 @@ TEST_CASE(
   Clearance fixed = fresh;
   fixed.any_turn = 0;
   set_free(fixed);
-  CHECK(gone_m(fixed, ellipsoid, {Vec3(3e-4, 0.0, 0.0), straight}) == doctest::Approx(3e-4).epsilon(1e-12));
+  CHECK(gone_m(fixed, ellipsoid, {Vec3(3e-4, 0.0, 0.0), straight}) == approx(3e-4).epsilon(1e-12));
   CHECK(deeper_possible(fixed, {Vec3(0.0), turned}, gone_m(fixed, ellipsoid, {Vec3(0.0), turned}), -1.0));
   CHECK(!deeper_possible(fixed, {Vec3(0.0), turned}, gone_m(fixed, sphere, {Vec3(0.0), turned}), -1.0));
 
@@ -52,12 +53,12 @@ TEST_CASE(
   Clearance c = fresh;
   recentre(c, {Vec3(3e-4, 0.0, 0.0), turned}, 3e-4);
   CHECK(c.centre == Vec3(3e-4, 0.0, 0.0));
-  CHECK(c.margin_m == doctest::Approx(7e-4).epsilon(1e-12));
+  CHECK(c.margin_m == approx(7e-4).epsilon(1e-12));
   CHECK(c.ahead_centre == c.centre);
-  CHECK(c.ahead_m == doctest::Approx(7e-4).epsilon(1e-12));
-  CHECK(c.ahead_height_m == doctest::Approx(0.0197).epsilon(1e-12));
-  CHECK(c.watched[0].margin_m == doctest::Approx(2e-4).epsilon(1e-5));
-  CHECK(c.free_m == doctest::Approx(2e-4).epsilon(1e-5));
+  CHECK(c.ahead_m == approx(7e-4).epsilon(1e-12));
+  CHECK(c.ahead_height_m == approx(0.0197).epsilon(1e-12));
+  CHECK(c.watched[0].margin_m == approx(2e-4).epsilon(1e-5));
+  CHECK(c.free_m == approx(2e-4).epsilon(1e-5));
   CHECK(c.free_m < 2e-4);
   const FingerPose here{c.centre, straight};
   CHECK(!deeper_possible(c, here, 0.0, 0.0196));
@@ -121,8 +122,8 @@ TEST_CASE("from a look-ahead that lies ahead of a finger that is not round its t
   check();
   const FingerPose here{Vec3(1e-4, 0.0, 0.0), turned(2e-4)};
   recentre(known, here, gone_m(known, ellipsoid, here));
-  CHECK(known.ahead_m == doctest::Approx(0.8e-3).epsilon(1e-6));
-  CHECK(known.ahead_height_m == doctest::Approx(0.0213).epsilon(1e-6));
+  CHECK(known.ahead_m == approx(0.8e-3).epsilon(1e-6));
+  CHECK(known.ahead_height_m == approx(0.0213).epsilon(1e-6));
   check();
 }
 

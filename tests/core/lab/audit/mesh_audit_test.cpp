@@ -3,10 +3,12 @@
 #include "core/lab/audit/half_edges.h"
 #include "core/lab/objects/generate.h"
 #include "tests/core/mesh/sample_meshes.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
 using namespace tangent;
+using namespace tangent::test;
 
 namespace {
 
@@ -28,7 +30,7 @@ TEST_CASE("audit of a cube: every figure known") {
   CHECK(a.edges == 18);
   CHECK(a.box_min_m == Vec3(0, 1, 2));
   CHECK(a.box_max_m == Vec3(2, 3, 4));
-  CHECK(a.area_m2 == doctest::Approx(24.0).epsilon(1e-14));
+  CHECK(a.area_m2 == approx(24.0).epsilon(1e-14));
   CHECK(a.components == 1);
   CHECK(a.boundary_edges == 0);
   CHECK(a.boundary_loops == 0);
@@ -42,12 +44,12 @@ TEST_CASE("audit of a cube: every figure known") {
   CHECK(a.max_normal_to_face_deg == 0.0);
   CHECK(a.edge_length_m.min == 2.0);
   CHECK(a.edge_length_m.median == 2.0);
-  CHECK(a.edge_length_m.max == doctest::Approx(std::sqrt(8.0)));
+  CHECK(a.edge_length_m.max == approx(std::sqrt(8.0)));
   CHECK(a.dihedral_deg.min == 0.0);
-  CHECK(a.dihedral_deg.median == doctest::Approx(90.0));
-  CHECK(a.dihedral_deg.max == doctest::Approx(90.0));
-  CHECK(a.aspect.min == doctest::Approx(2.0));
-  CHECK(a.aspect.max == doctest::Approx(2.0));
+  CHECK(a.dihedral_deg.median == approx(90.0));
+  CHECK(a.dihedral_deg.max == approx(90.0));
+  CHECK(a.aspect.min == approx(2.0));
+  CHECK(a.aspect.max == approx(2.0));
 }
 
 TEST_CASE("audit counts boundary loops and parts") {
@@ -102,7 +104,7 @@ TEST_CASE("audit lists slivers and normals against their faces") {
   const MeshAudit a = audit(source);
   CHECK(a.sliver_triangles == 1);
   CHECK(a.first_slivers == std::vector<std::uint64_t>{1});
-  CHECK(a.aspect.max == doctest::Approx(200.0));
+  CHECK(a.aspect.max == approx(200.0));
   CHECK(a.flipped_normals == 1);
   CHECK(a.first_flipped == std::vector<std::uint64_t>{0});
   CHECK(a.wild_normals == 2);

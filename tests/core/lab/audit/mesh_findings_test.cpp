@@ -4,6 +4,7 @@
 #include "core/lab/audit/mesh_audit.h"
 #include "core/lab/objects/generate.h"
 #include "tests/core/mesh/sample_meshes.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -11,6 +12,7 @@
 #include <string>
 
 using namespace tangent;
+using namespace tangent::test;
 
 namespace {
 
@@ -41,9 +43,9 @@ TEST_CASE("an open sheet has one loop, at its middle, of its length, with the tr
   const Found f = find(sample::grid(4, [](double, double) { return 0.0; }));
   REQUIRE(f.findings.count(FindingKind::boundary_loop) == 1);
   const MeshFinding& loop = f.findings.of(FindingKind::boundary_loop)[0];
-  CHECK(loop.size == doctest::Approx(16.0));
+  CHECK(loop.size == approx(16.0));
   CHECK(glm::length(loop.place) < 1e-12);
-  CHECK(std::abs(loop.normal.z) == doctest::Approx(1.0));
+  CHECK(std::abs(loop.normal.z) == approx(1.0));
   for (const std::uint32_t t : loop.triangles) {
     bool at_boundary = false;
     for (std::uint32_t e = 0; e < 3; ++e) at_boundary |= f.mesh.edge_kind(t, e) == EdgeKind::boundary;
@@ -72,7 +74,7 @@ TEST_CASE("the findings are as many as the audit counts, on every hard mesh") {
       for (const MeshFinding& finding : list) {
         CHECK_FALSE(finding.triangles.empty());
         CHECK(is_finite(finding.place));
-        CHECK(glm::length(finding.normal) == doctest::Approx(1.0));
+        CHECK(glm::length(finding.normal) == approx(1.0));
       }
     }
   }

@@ -2,6 +2,7 @@
 #include "core/io/pose_file.h"
 #include "tests/core/fingers.h"
 #include "tests/core/lab/explain/made_failures.h"
+#include "tests/support/approx.h"
 #include "tests/support/temp_folder.h"
 
 #include <chrono>
@@ -108,15 +109,15 @@ TEST_CASE("the numbers that decided are those of the ground") {
   for (int i = 0; i < 10; ++i) {
     const MadeFailure ball = *gain_too_small_on_a_ball(random);
     const double full = 1.0 + ball.preset.finger.radius_m / 0.010;
-    CHECK(explain(ball).decided.threshold == doctest::Approx(1.0 / full).epsilon(0.1));
+    CHECK(explain(ball).decided.threshold == approx(1.0 / full).epsilon(0.1));
     MadeMaybe hollow;
     while (!hollow) hollow = finger_larger_than_hollow(random);
     const TickExplanation e = explain(*hollow);
-    CHECK(e.decided.value == doctest::Approx(hollow->preset.finger.radius_m).epsilon(0.05));
-    CHECK(e.decided.threshold == doctest::Approx(1.0 / kBend).epsilon(0.1));
+    CHECK(e.decided.value == approx(hollow->preset.finger.radius_m).epsilon(0.05));
+    CHECK(e.decided.threshold == approx(1.0 / kBend).epsilon(0.1));
     const TickExplanation jump = explain(*facet_crossed(random));
     CHECK(jump.decided.value > 10.0);
-    CHECK(jump.decided.margin() == doctest::Approx(jump.decided.value - 10.0));
+    CHECK(jump.decided.margin() == approx(jump.decided.value - 10.0));
   }
 }
 

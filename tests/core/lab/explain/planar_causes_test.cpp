@@ -1,5 +1,6 @@
 // Ticks of 2D scenes, and of meshes that were not built yet, whose trouble is known by how they were made.
 #include "tests/core/lab/explain/made_planar_failures.h"
+#include "tests/support/approx.h"
 
 #include <map>
 #include <string>
@@ -49,12 +50,12 @@ TEST_CASE("on a polygon the numbers that decided are those of the ground") {
     MadeMaybe made;
     while (!made) made = circle_larger_than_hollow(random);
     const TickExplanation e = explain_tick(made->scene, made->preset, made->input, made->before);
-    CHECK(e.decided.value == doctest::Approx(made->preset.finger.radius_m).epsilon(0.05));
-    CHECK(e.decided.threshold == doctest::Approx(1.0 / kBend).epsilon(0.1));
+    CHECK(e.decided.value == approx(made->preset.finger.radius_m).epsilon(0.05));
+    CHECK(e.decided.threshold == approx(1.0 / kBend).epsilon(0.1));
     made.reset();
     while (!made) made = short_steps_in_a_hollow(random);
     const TickExplanation small = explain_tick(made->scene, made->preset, made->input, made->before);
-    CHECK(small.decided.threshold == doctest::Approx(1.0 / (1.0 - kBend * made->preset.finger.radius_m)).epsilon(0.1));
+    CHECK(small.decided.threshold == approx(1.0 / (1.0 - kBend * made->preset.finger.radius_m)).epsilon(0.1));
     REQUIRE(small.cure.outcome == CureOutcome::found);
     CHECK(small.cure.key->full_name() == "solver.method");
   }

@@ -1,6 +1,7 @@
 #include "core/lab/gains/gain_tuning.h"
 
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 
 #include <cmath>
 #include <string>
@@ -70,7 +71,7 @@ TEST_CASE("a score is what the ticks add up to") {
   CHECK(score.ticks == 500);
   CHECK(score.unconverged == 0);
   CHECK(score.iterations == sum);
-  CHECK(score.mean_iterations() == doctest::Approx(static_cast<double>(sum) / 500.0).epsilon(1e-15));
+  CHECK(score.mean_iterations() == approx(static_cast<double>(sum) / 500.0).epsilon(1e-15));
   CHECK(score.p99_iterations == iterations[494]);
   CHECK(score.max_iterations == iterations.back());
   CHECK(score.max_error_m == error);

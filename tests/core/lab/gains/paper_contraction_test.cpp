@@ -6,6 +6,7 @@
 #include "core/surface/mesh_patch.h"
 
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 
 using namespace tangent;
 using namespace tangent::test;
@@ -30,16 +31,16 @@ Preset with(double overall, double curvature_m, double distance_per_m = 0.0) {
 TEST_CASE("on flat ground a plane leaves 1 - gain of the error") {
   const auto scene = scene_of(height_field(0.02, 2, [](double, double) { return 0.0; }));
   CHECK(contraction_at(scene->mesh(), with(1.0, 0.02), 0, 0.3, 0.3) < 1e-6);
-  CHECK(contraction_at(scene->mesh(), with(0.75, 0.02), 0, 0.3, 0.3) == doctest::Approx(0.25));
-  CHECK(contraction_at(scene->mesh(), with(1.0, 0.0, 500.0), 0, 0.3, 0.3) == doctest::Approx(1.0 - 1.0 / 1.5));
-  CHECK(contraction_at(scene->mesh(), with(2.5, 0.0), 0, 0.3, 0.3) == doctest::Approx(1.5));  // runs away
+  CHECK(contraction_at(scene->mesh(), with(0.75, 0.02), 0, 0.3, 0.3) == approx(0.25));
+  CHECK(contraction_at(scene->mesh(), with(1.0, 0.0, 500.0), 0, 0.3, 0.3) == approx(1.0 - 1.0 / 1.5));
+  CHECK(contraction_at(scene->mesh(), with(2.5, 0.0), 0, 0.3, 0.3) == approx(1.5));  // runs away
 }
 
 TEST_CASE("on a sphere G_k = h lands at once, and G_k = 0 leaves h k") {
   const double r = 0.040, h = kRadius - kDepth;
   const auto scene = scene_of(make_icosphere(r, 3));
   CHECK(contraction_at(scene->mesh(), with(1.0, h), 5, 0.3, 0.4) < 0.02);
-  CHECK(contraction_at(scene->mesh(), with(1.0, 0.0), 5, 0.3, 0.4) == doctest::Approx(h / r).epsilon(0.02));
+  CHECK(contraction_at(scene->mesh(), with(1.0, 0.0), 5, 0.3, 0.4) == approx(h / r).epsilon(0.02));
 }
 
 TEST_CASE("on an edge of radius r every plane leaves (h/r)/(2 + h/r) whatever the gains up to G_o = 1") {
@@ -59,7 +60,7 @@ TEST_CASE("on an edge of radius r every plane leaves (h/r)/(2 + h/r) whatever th
     CAPTURE(gains.curvature_m);
     const double left = contraction_at(scene->mesh(), with(gains.overall, gains.curvature_m, gains.distance_per_m),
                                        out.triangle, out.u, out.v);
-    CHECK(left == doctest::Approx(theory).epsilon(0.01));
+    CHECK(left == approx(theory).epsilon(0.01));
   }
   // Long and short steps take turns without end, and leave less on average (rounded_edge_test.cpp); the worst run of
   // them leaves no more.
@@ -82,7 +83,7 @@ TEST_CASE("it foretells the planes that the solver computes") {
   const double measured = std::pow(trace.records[trace.size - 1].error_m / trace.records[3].error_m,
                                    1.0 / static_cast<double>(trace.size - 4));
   CHECK(contraction_at(scene->mesh(), preset, out.triangle, out.u, out.v, out.penetration_m) ==
-        doctest::Approx(measured).epsilon(0.03));
+        approx(measured).epsilon(0.03));
 }
 
 TEST_CASE("the advice is the height of the finger's centre, with what it brings at the contact") {
@@ -92,9 +93,9 @@ TEST_CASE("the advice is the height of the finger's centre, with what it brings 
   const GainAdvice advice = advise_gains(scene->mesh(), preset, out);
   CHECK(advice.local);
   CHECK(advice.gain_curvature_m == kRadius);
-  CHECK(advice.height_m == doctest::Approx(kRadius - kDepth).epsilon(0.001));
-  CHECK(advice.k1_per_m == doctest::Approx(25.0).epsilon(0.02));
-  CHECK(advice.ideal1 == doctest::Approx(1.0 / (1.0 + 0.019 * 25.0)).epsilon(0.02));
+  CHECK(advice.height_m == approx(kRadius - kDepth).epsilon(0.001));
+  CHECK(advice.k1_per_m == approx(25.0).epsilon(0.02));
+  CHECK(advice.ideal1 == approx(1.0 / (1.0 + 0.019 * 25.0)).epsilon(0.02));
   CHECK(advice.left_advised < 0.1 * advice.left_now);
   const GainAdvice nowhere = advise_gains(scene->mesh(), preset, std::nullopt);
   CHECK_FALSE(nowhere.local);

@@ -10,6 +10,7 @@
 #include "core/lab/gains/ground.h"
 
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 
 #include <numbers>
 
@@ -110,9 +111,9 @@ TEST_CASE("in an oblique crossing every plane leaves the part of the error that 
     MESSAGE("G_o " << gains.overall << ", G_k " << gains.curvature_m << " m: every plane leaves " << rate
                    << " of the error, theory " << theory);
     if (gains.overall <= 1.0)
-      CHECK(rate == doctest::Approx(theory).epsilon(0.01));
+      CHECK(rate == approx(theory).epsilon(0.01));
     else
-      CHECK(rate == doctest::Approx(0.67).epsilon(0.03));
+      CHECK(rate == approx(0.67).epsilon(0.03));
   }
 }
 
@@ -136,7 +137,7 @@ TEST_CASE("ground is told by the tightest curvature under the finger") {
 
   GroundCounts counts;
   counts.add(Ground::flat, 1), counts.add(Ground::flat, 2), counts.add(Ground::tight, 30);
-  CHECK(counts.share(Ground::flat) == doctest::Approx(2.0 / 3.0));
+  CHECK(counts.share(Ground::flat) == approx(2.0 / 3.0));
   CHECK(counts.mean_iterations(Ground::flat) == 1.5);
   CHECK(counts.mean_iterations(Ground::gentle) == 0.0);
 }

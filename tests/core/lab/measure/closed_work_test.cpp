@@ -2,6 +2,7 @@
 
 #include "core/lab/objects/generate.h"
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -29,7 +30,7 @@ TEST_CASE("a circle of poses has its radius, lies in its plane and closes") {
   Vec3 sum(0.0);
   for (const FingerPose& pose : loop) {
     const Vec3 d = pose.position - Vec3(1, 2, 3);
-    CHECK(glm::length(d) == doctest::Approx(0.5));
+    CHECK(glm::length(d) == approx(0.5));
     CHECK(std::abs(glm::dot(d, Vec3(1, 1, 0))) < 1e-15);
     sum += d;
   }
@@ -57,8 +58,8 @@ TEST_CASE("the work of a force with a curl is found: force shading on a plane wi
   const double radius = 5e-3;
   const ClosedWork work = around(scene_of(mesh), Method::force_shading, Vec3(0.0, 0.0, 0.019), kUp, radius);
   const double area = 3.14159265358979 * radius * radius;
-  CHECK(std::abs(work.work_j) == doctest::Approx(0.8 * kLean * area).epsilon(0.02));
-  CHECK(work.relative() == doctest::Approx(std::abs(work.work_j) / work.peak_energy_j));
+  CHECK(std::abs(work.work_j) == approx(0.8 * kLean * area).epsilon(0.02));
+  CHECK(work.relative() == approx(std::abs(work.work_j) / work.peak_energy_j));
 }
 
 TEST_CASE("out of contact there is no work") {

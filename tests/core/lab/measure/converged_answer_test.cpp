@@ -2,6 +2,7 @@
 
 #include "core/lab/objects/generate.h"
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -34,6 +35,6 @@ TEST_CASE("the tolerance of converged answers follows the scene's size") {
   const Finger finger{.shape = FingerShape::point};
   const double metre = converged_tolerance_m(*scene_of(make_icosphere(0.5, 1)), finger);
   const double millimetre = converged_tolerance_m(*scene_of(make_icosphere(0.5e-3, 1)), finger);
-  CHECK(metre == doctest::Approx(1000.0 * millimetre));
+  CHECK(metre == approx(1000.0 * millimetre));
   CHECK(metre < 1.1e-12);
 }

@@ -1,5 +1,6 @@
 #include "core/lab/measure/perception.h"
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 
 #include <algorithm>
 
@@ -42,10 +43,10 @@ TEST_CASE("a cylinder of 36 facets: 10 degrees at each, diagonals flat, ends bou
   CHECK(audit.flat_edges == 36);
   CHECK(audit.boundary_edges == 72);
   CHECK(audit.crease_edges == 0);
-  CHECK(audit.largest_curve_deg == doctest::Approx(10.0).epsilon(1e-6));
+  CHECK(audit.largest_curve_deg == approx(10.0).epsilon(1e-6));
   for (const char* name : {"C1", "C2", "C3", "C4", "P2"}) {
     CHECK(feel(audit, name).felt == 36);
-    CHECK(feel(audit, name).felt_length_m == doctest::Approx(36 * 0.05));
+    CHECK(feel(audit, name).felt_length_m == approx(36 * 0.05));
     CHECK(feel(audit, name).worst.size() == kWorstEdges);
   }
   CHECK(feel(audit, "P1").felt == 0);
@@ -90,8 +91,8 @@ TEST_CASE("a rounded cube: its flat faces stay flat, its fillets are curves, and
 TEST_CASE("the heat map is the largest angle over the threshold, zero on flat faces and at creases") {
   const ContactMesh mesh = mesh_of(wall(36));
   const std::vector<float> ratio = felt_ratio(facet_angles(mesh), kPerceptionThresholds[0]);
-  for (const float r : ratio) CHECK(r == doctest::Approx(20.0).epsilon(1e-5));
-  CHECK(largest_curve_angle_rad(mesh, 5) == doctest::Approx(10.0 * kDegree));
+  for (const float r : ratio) CHECK(r == approx(20.0).epsilon(1e-5));
+  CHECK(largest_curve_angle_rad(mesh, 5) == approx(10.0 * kDegree));
   const ContactMesh cube = mesh_of(*generate_mesh("cube"));
   CHECK(largest_curve_angle_rad(cube, 0) == 0.0);
   for (const float r : felt_ratio(facet_angles(cube), kPerceptionThresholds[0])) CHECK(r == 0.0f);

@@ -1,6 +1,7 @@
 // Scenes that once showed kicks: how often the contact flips in each, and that nothing is felt of it.
 #include "tests/core/recorded_scenes.h"
 #include "core/lab/measure/roughness.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -69,7 +70,7 @@ TEST_CASE("roughness counts what goes over the bound, and by how much") {
   const Roughness& r = counter.result();
   CHECK(r.pairs == 1);
   CHECK(r.force.unexplained == 0);
-  CHECK(r.force.mean == doctest::Approx(0.10));
+  CHECK(r.force.mean == approx(0.10));
   CHECK(r.decided_force.unexplained == 1);
-  CHECK(r.decided_force.largest == doctest::Approx(0.15));
+  CHECK(r.decided_force.largest == approx(0.15));
 }

@@ -1,6 +1,7 @@
 #include "core/lab/measure/scene_statistics.h"
 
 #include "core/base/units.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -9,6 +10,7 @@
 #include <vector>
 
 using namespace tangent;
+using namespace tangent::test;
 
 namespace {
 
@@ -47,9 +49,9 @@ TEST_CASE("counts and percentiles of a run made by hand") {
   CHECK(s.count(TickEvent::switched) == 1);
   CHECK(s.count(TickStatus::edge) == 1);
   CHECK(s.not_finite == 0);
-  CHECK(s.max_error_m == doctest::Approx(9e-7));  // the unconverged tick's does not count
+  CHECK(s.max_error_m == approx(9e-7));  // the unconverged tick's does not count
   CHECK(s.iterations.count == 2);
-  CHECK(s.iterations.mean == doctest::Approx(2.0));
+  CHECK(s.iterations.mean == approx(2.0));
   CHECK(s.all_iterations.max == 50.0);
   CHECK(s.ns.max == 5000.0);
   CHECK(s.eventless_ns.max == 300.0);
@@ -89,10 +91,10 @@ TEST_CASE("differences are lengths and angles - unconverged ticks are left out")
   b.force_n = Vec3(0, 0, 0.25);
   b.cld_m = -2e-3;
   const OutputDifference d = difference(a, b);
-  CHECK(d.contact_m == doctest::Approx(5e-3));
-  CHECK(d.normal_rad == doctest::Approx(20.0 * kDegree));
-  CHECK(d.force_n == doctest::Approx(0.25));
-  CHECK(d.display_m == doctest::Approx(2e-3));
+  CHECK(d.contact_m == approx(5e-3));
+  CHECK(d.normal_rad == approx(20.0 * kDegree));
+  CHECK(d.force_n == approx(0.25));
+  CHECK(d.display_m == approx(2e-3));
 
   RunComparison comparison;
   comparison.add(a, b);
@@ -101,5 +103,5 @@ TEST_CASE("differences are lengths and angles - unconverged ticks are left out")
   const RunDifference run = comparison.result();
   CHECK(run.compared == 1);
   CHECK(run.left_out == 2);
-  CHECK(run.contact_m.max == doctest::Approx(5e-3));
+  CHECK(run.contact_m.max == approx(5e-3));
 }

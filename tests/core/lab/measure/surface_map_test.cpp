@@ -2,6 +2,7 @@
 #include "core/lab/measure/surface_map.h"
 
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 
 #include <set>
 
@@ -39,7 +40,7 @@ TEST_CASE("parts cover a patch once each, and their centroids lie in them") {
       sum_u += uv.x;
     }
     CHECK(seen.size() == level * level);
-    CHECK(sum_u / (level * level) == doctest::Approx(1.0 / 3.0));  // the parts have equal areas
+    CHECK(sum_u / (level * level) == approx(1.0 / 3.0));  // the parts have equal areas
     for (const Vec2 corner : {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)})
       CHECK(map_part_at(level, corner.x, corner.y) < level * level);
   }
@@ -57,9 +58,9 @@ TEST_CASE(
   options.level = 2;
   SurfaceMapper mapper(scene, preset, options);
   for (std::uint32_t t = 0; t < scene->mesh().triangle_count(); t += 37) {
-    CHECK(value_of(mapper, MapQuantity::curvature, t, 1) == doctest::Approx(25.0).epsilon(0.05));
+    CHECK(value_of(mapper, MapQuantity::curvature, t, 1) == approx(25.0).epsilon(0.05));
     CHECK(value_of(mapper, MapQuantity::normal_deviation, t, 1) < 0.01);
-    CHECK(value_of(mapper, MapQuantity::touch_radius, t, 3) == doctest::Approx(kLargestTouch));
+    CHECK(value_of(mapper, MapQuantity::touch_radius, t, 3) == approx(kLargestTouch));
     CHECK(value_of(mapper, MapQuantity::iterations_worst, t, 0) >= 1.0f);
     CHECK(value_of(mapper, MapQuantity::iterations_worst, t, 0) <= 2.0f);
     CHECK(value_of(mapper, MapQuantity::failures, t, 0) == 0.0f);
@@ -77,7 +78,7 @@ TEST_CASE("the paper's iteration without curvature gain takes more planes than w
   SurfaceMapper with_plain(scene, plain, {}), with_tuned(scene, tuned, {});
   CHECK(value_of(with_plain, MapQuantity::iterations_mean, 7, 0) >
         2.0f * value_of(with_tuned, MapQuantity::iterations_mean, 7, 0));
-  CHECK(value_of(with_plain, MapQuantity::gain_margin, 7, 0) == doctest::Approx(1.0 - 0.019 / 0.040).epsilon(0.05));
+  CHECK(value_of(with_plain, MapQuantity::gain_margin, 7, 0) == approx(1.0 - 0.019 / 0.040).epsilon(0.05));
   CHECK(value_of(with_tuned, MapQuantity::gain_margin, 7, 0) > 0.95f);
 }
 
@@ -88,7 +89,7 @@ TEST_CASE("gains that run away show as failures and as a margin below zero") {
   preset.solver.gain_curvature_m = 0.0;
   SurfaceMapper mapper(scene, preset, {});
   // The move straight in leaves the contact where it is; the eight around fail.
-  CHECK(value_of(mapper, MapQuantity::failures, 11, 0) == doctest::Approx(8.0 / 9.0));
+  CHECK(value_of(mapper, MapQuantity::failures, 11, 0) == approx(8.0 / 9.0));
   CHECK(value_of(mapper, MapQuantity::gain_margin, 11, 0) < 0.0f);
   CHECK(value_of(mapper, MapQuantity::error, 11, 0) < 1e-12f);
 }
@@ -99,8 +100,8 @@ TEST_CASE("in a groove tighter than the finger two walls touch, and the finger c
   SurfaceMapper with_wide(scene, wide, {}), with_narrow(scene, narrow, {});
   const NearestHit bottom = scene->nearest().nearest(Vec3(0.001, 0.0002, -0.004) - scene->mesh().origin(), 1.0);
   REQUIRE(bottom);
-  CHECK(value_of(with_wide, MapQuantity::touch_radius, bottom.triangle, 0) == doctest::Approx(0.5).epsilon(0.15));
-  CHECK(value_of(with_narrow, MapQuantity::touch_radius, bottom.triangle, 0) == doctest::Approx(2.5).epsilon(0.15));
+  CHECK(value_of(with_wide, MapQuantity::touch_radius, bottom.triangle, 0) == approx(0.5).epsilon(0.15));
+  CHECK(value_of(with_narrow, MapQuantity::touch_radius, bottom.triangle, 0) == approx(2.5).epsilon(0.15));
   CHECK(value_of(with_wide, MapQuantity::iterations_worst, bottom.triangle, 0) == kMapNoValue);
   CHECK(is_map_value(value_of(with_narrow, MapQuantity::iterations_worst, bottom.triangle, 0)));
 }
@@ -119,7 +120,7 @@ TEST_CASE("beside a concave crease the ball that fits is told by the other wall"
   for (std::uint32_t k = 0; k < 3; ++k)
     mean_x += (scene->mesh().position(at.triangle, k).x + scene->mesh().origin().x) / 3.0;
   const double expected = -mean_x / std::tan(22.5 * kDegree) / 0.020;
-  CHECK(value_of(mapper, MapQuantity::touch_radius, at.triangle, 0) == doctest::Approx(expected).epsilon(0.1));
+  CHECK(value_of(mapper, MapQuantity::touch_radius, at.triangle, 0) == approx(expected).epsilon(0.1));
 }
 
 TEST_CASE("values do not depend on the order of places") {

@@ -1,6 +1,7 @@
 #include "core/lab/measure/touch_count.h"
 
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 #include "tests/support/temp_folder.h"
 
 using namespace tangent;
@@ -24,7 +25,7 @@ TEST_CASE("a motion that touches nothing is told with its ticks and how near it 
   const TouchCount near = count_until_touched(scene, preset, at_height(0.023, 40));
   CHECK(near.ticks() == 40);
   CHECK(near.touched() == 0);
-  CHECK(near.nearest_m() == doctest::Approx(0.003));
+  CHECK(near.nearest_m() == approx(0.003));
   CHECK(contains(near.note(), "touched nothing in 40 of 40 ticks; the nearest it came was 3 mm: check the units"));
   CHECK(contains(count_until_touched(scene, preset, at_height(59.0, 5)).note(), "was 58.98 m"));
 

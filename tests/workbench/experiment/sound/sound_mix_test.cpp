@@ -1,5 +1,6 @@
 // Noise and cues as samples: levels, ramps, bounds.
 #include "workbench/experiment/sound/sound_mix.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -11,6 +12,7 @@
 #include <vector>
 
 using namespace tangent::experiment;
+using tangent::test::approx;
 
 namespace {
 
@@ -43,7 +45,7 @@ TEST_CASE("noise has the RMS that was asked for, and no sample beyond its bound"
     made(mix, kRampSamples);
     const std::vector<float> samples = made(mix, 48'000);
     CAPTURE(db);
-    CHECK(rms(samples) == doctest::Approx(amplitude_of(db)).epsilon(0.01));
+    CHECK(rms(samples) == approx(amplitude_of(db)).epsilon(0.01));
     CHECK(largest(samples) <= std::sqrt(3.0) * amplitude_of(db) * (1.0 + 1e-6));
   }
 }

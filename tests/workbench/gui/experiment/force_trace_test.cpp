@@ -1,6 +1,7 @@
 // The force of the last seconds in even steps.
 #include "workbench/gui/experiment/force_trace.h"
 
+#include "tests/support/approx.h"
 #include "workbench/gui/platform/experiment_monitor.h"
 
 #include <doctest/doctest.h>
@@ -10,6 +11,7 @@
 #include <vector>
 
 using namespace tangent;
+using namespace tangent::test;
 
 TEST_CASE("a step of the trace is the largest force of its ticks, the newest last") {
   ForceTrace trace(1.0, 10);
@@ -17,7 +19,7 @@ TEST_CASE("a step of the trace is the largest force of its ticks, the newest las
   for (int tick = 0; tick < 2000; ++tick) trace.add(1e-3 * tick + 5e-4, tick % 100 == 50 ? 0.001 * tick : 0.0);
   const std::vector<float> values = trace.values();
   REQUIRE(values.size() == 10);
-  for (int i = 0; i < 10; ++i) CHECK(values[static_cast<std::size_t>(i)] == doctest::Approx(1.05 + 0.1 * i));
+  for (int i = 0; i < 10; ++i) CHECK(values[static_cast<std::size_t>(i)] == approx(1.05 + 0.1 * i));
 }
 
 TEST_CASE("a gap in the trace is empty, and a clock that goes back begins it anew") {

@@ -1,6 +1,7 @@
 // Both screens from what a running experiment says of itself.
 #include "workbench/gui/experiment/trial_screens.h"
 
+#include "tests/support/approx.h"
 #include "tests/support/paths.h"
 #include "workbench/gui/model/experiment_start.h"
 
@@ -10,6 +11,7 @@
 #include <string>
 
 using namespace tangent;
+using namespace tangent::test;
 
 namespace {
 
@@ -65,10 +67,10 @@ TEST_CASE("the way to the start is drawn as the person has it: forward is away, 
   view.finger_from_start_m = {0.010, 0.020, -0.030};  // world: forward, left, down
   const ParticipantScreen screen = participant_screen(view, shipped("identification"), 0);
   CHECK(screen.show_mark);
-  CHECK(screen.away_mm == doctest::Approx(10.0));
-  CHECK(screen.right_mm == doctest::Approx(-20.0));
-  CHECK(screen.up_mm == doctest::Approx(-30.0));
-  CHECK(screen.mark_mm == doctest::Approx(5.0));
+  CHECK(screen.away_mm == approx(10.0));
+  CHECK(screen.right_mm == approx(-20.0));
+  CHECK(screen.up_mm == approx(-30.0));
+  CHECK(screen.mark_mm == approx(5.0));
 }
 
 TEST_CASE("stages follow the participant's order, and runs fill one after the other") {

@@ -1,4 +1,5 @@
 #include "workbench/gui/layout/layout.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -6,6 +7,7 @@
 #include <tuple>
 
 using namespace tangent;
+using namespace tangent::test;
 
 TEST_CASE("the parts fill the window without overlapping, from 1280 x 720 to 4K at any scale") {
   for (const auto& [w, h, scale] : {std::tuple{1280.0f, 720.0f, 1.0f},
@@ -66,8 +68,8 @@ TEST_CASE("plots and the right column, where they were not dragged, take more ro
   CHECK(large.plots.h > 1.5f * small.plots.h);
   CHECK(large.plots.h < large.view.h);
   CHECK(large.right.w > 1.3f * small.right.w);
-  CHECK(compute_layout({}, 2560.0f, 1440.0f, 2.0f).right.w == doctest::Approx(2.0f * small.right.w));
+  CHECK(compute_layout({}, 2560.0f, 1440.0f, 2.0f).right.w == approx(2.0f * small.right.w));
   LayoutSizes dragged;
   dragged.right = 300.0f;
-  CHECK(compute_layout(dragged, 2560.0f, 1440.0f, 1.0f).right.w == doctest::Approx(300.0f));
+  CHECK(compute_layout(dragged, 2560.0f, 1440.0f, 1.0f).right.w == approx(300.0f));
 }

@@ -1,6 +1,7 @@
 #include "tests/workbench/gui/headless_app.h"
 
 #include "core/mesh/contact_mesh.h"
+#include "tests/support/approx.h"
 #include "workbench/gui/layout/view_room.h"
 #include "workbench/gui/render/camera_text.h"
 #include "workbench/gui/render/scene_overlay.h"
@@ -47,15 +48,15 @@ TEST_CASE("a standard view frames the whole scene anew, and keeps near to what w
 
 TEST_CASE("rooms are what a card in the corner and bars along the edges leave") {
   const auto [middle, beside, above] = rooms_beside({600.0, 400.0}, 40.0, 20.0, {200.0, 220.0});
-  CHECK(middle.width == doctest::Approx(0.5));
-  CHECK(middle.height == doctest::Approx(0.9));
-  CHECK(middle.shift.x == doctest::Approx(0.0));
-  CHECK(middle.shift.y == doctest::Approx(-0.05));
-  CHECK(beside.width == doctest::Approx(0.95));
-  CHECK(beside.shift.x == doctest::Approx(0.225));
-  CHECK(above.width == doctest::Approx(1.45));
-  CHECK(above.height == doctest::Approx(0.35));
-  CHECK(above.shift.y == doctest::Approx(0.225));
+  CHECK(middle.width == approx(0.5));
+  CHECK(middle.height == approx(0.9));
+  CHECK(middle.shift.x == approx(0.0).scale(1.0));
+  CHECK(middle.shift.y == approx(-0.05));
+  CHECK(beside.width == approx(0.95));
+  CHECK(beside.shift.x == approx(0.225));
+  CHECK(above.width == approx(1.45));
+  CHECK(above.height == approx(0.35));
+  CHECK(above.shift.y == approx(0.225));
   for (const ViewRoom& room : rooms_beside({10.0, 0.0}, 40.0, 20.0, {200.0, 220.0}))
     CHECK((room.width > 0.0 && room.height > 0.0));
 }

@@ -1,6 +1,7 @@
 #include "workbench/gui/map/map_view.h"
 
 #include "tests/core/scenes.h"
+#include "tests/support/approx.h"
 
 #include <numeric>
 
@@ -55,9 +56,9 @@ TEST_CASE("a range set by hand stays until it is automatic again - nonsense is l
   map.set_logarithmic(true);
   map.set_range(0.0, 5.0);
   CHECK(map.low() == 2.0);
-  CHECK(map_share(*map.paint(), 2.0) == doctest::Approx(0.0));
-  CHECK(map_share(*map.paint(), std::sqrt(10.0)) == doctest::Approx(0.5));
-  CHECK(map_value_at(*map.paint(), 0.5) == doctest::Approx(std::sqrt(10.0)));
+  CHECK(map_share(*map.paint(), 2.0) == approx(0.0).scale(1.0));
+  CHECK(map_share(*map.paint(), std::sqrt(10.0)) == approx(0.5));
+  CHECK(map_value_at(*map.paint(), 0.5) == approx(std::sqrt(10.0)));
   map.set_logarithmic(false);
   map.set_automatic_range();
   CHECK(map.low() == low);

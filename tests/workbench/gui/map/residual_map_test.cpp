@@ -1,12 +1,14 @@
 #include "workbench/gui/map/residual_map.h"
 
 #include "core/lab/objects/generate.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
 using namespace tangent;
+using namespace tangent::test;
 
 namespace {
 
@@ -53,7 +55,7 @@ TEST_CASE("the field is the error of every plane of the trace, where it touches"
     if (!at) continue;
     ++placed;
     CHECK(map.inside(*at));
-    CHECK(map.residual(*at) == doctest::Approx(it.error_m).epsilon(1e-6));
+    CHECK(map.residual(*at) == approx(it.error_m).epsilon(1e-6));
   }
   CHECK(placed >= 2);
   CHECK(map.residual(*map.place(tick.output.triangle, tick.output.u, tick.output.v)) < 1e-6);
@@ -67,7 +69,7 @@ TEST_CASE("flat triangles keep their lengths, and neighbours lie on the other si
   for (const FlatTriangle& t : map.triangles()) {
     for (std::uint32_t k = 0; k < 3; ++k) {
       const double real = glm::length(mesh.position(t.triangle, (k + 1) % 3) - mesh.position(t.triangle, k));
-      CHECK(glm::length(t.corners[(k + 1) % 3] - t.corners[k]) == doctest::Approx(real).epsilon(1e-12));
+      CHECK(glm::length(t.corners[(k + 1) % 3] - t.corners[k]) == approx(real).epsilon(1e-12));
     }
   }
   const auto& base = map.triangles()[0].corners;
@@ -84,7 +86,7 @@ TEST_CASE("flat triangles keep their lengths, and neighbours lie on the other si
   // The field goes on across the edge without a step.
   for (double f : {0.2, 0.5, 0.9}) {
     const Vec2 on = glm::mix(base[0], base[1], f), off(0.0, 1e-9);
-    CHECK(map.residual(on + off) == doctest::Approx(map.residual(on - off)).epsilon(1e-3));
+    CHECK(map.residual(on + off) == approx(map.residual(on - off)).epsilon(1e-3));
   }
 }
 

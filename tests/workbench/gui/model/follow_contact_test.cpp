@@ -1,9 +1,11 @@
 // The camera and the contact: looking at it, following it, and finding it after a jump in time.
+#include "tests/support/approx.h"
 #include "tests/workbench/gui/headless_app.h"
 
 #include <cmath>
 
 using namespace tangent;
+using namespace tangent::test;
 using tangent::test::HeadlessApp;
 
 namespace {
@@ -100,7 +102,7 @@ TEST_CASE("turning to show a surface turns as little as it takes, from anywhere"
     if (before >= 0.3)
       CHECK(after == before);
     else
-      CHECK(after == doctest::Approx(0.3).epsilon(0.1));
+      CHECK(after == approx(0.3).epsilon(0.1));
   }
   const Vec3 behind = camera.forward();
   camera.turn_to_show(behind, 0.3);

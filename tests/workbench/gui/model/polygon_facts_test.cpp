@@ -4,6 +4,7 @@
 #include "tests/workbench/gui/headless_app.h"
 
 #include "core/io/polygon_io.h"
+#include "tests/support/approx.h"
 
 using namespace tangent;
 using namespace tangent::test;
@@ -23,12 +24,12 @@ TEST_CASE("a polygon's vertices, segments and corners are counted as one sees th
   CHECK(closed.vertices == 4);
   CHECK(closed.corners == 1);
   CHECK(closed.segments == 4);
-  CHECK(closed.length_m == doctest::Approx(0.14));
-  CHECK(closed.size_m.x == doctest::Approx(0.04));
-  CHECK(closed.size_m.y == doctest::Approx(0.03));
+  CHECK(closed.length_m == approx(0.14));
+  CHECK(closed.size_m.x == approx(0.04));
+  CHECK(closed.size_m.y == approx(0.03));
   CHECK(open.vertices == 4);
   CHECK(open.segments == 3);
-  CHECK(open.length_m == doctest::Approx(0.11));
+  CHECK(open.length_m == approx(0.11));
   CHECK(facts_of({}).vertices == 0);
 }
 

@@ -1,9 +1,11 @@
 // Tuning on recorded ticks: sweeps and advice on gains.
+#include "tests/support/approx.h"
 #include "tests/workbench/gui/headless_app.h"
 
 #include <algorithm>
 
 using namespace tangent;
+using namespace tangent::test;
 using tangent::test::HeadlessApp;
 
 namespace {
@@ -135,7 +137,7 @@ TEST_CASE("gains are advised only where they leave less by the number shown - ta
     ui.frame();
     const auto after = ui.model().tuning().advice_here();
     REQUIRE(after);
-    CHECK(after->left_now == doctest::Approx(advice->left_advised));
+    CHECK(after->left_now == approx(advice->left_advised));
     CHECK_FALSE(after->better());
     CHECK(ui.app().items().find("solver/advice/set") == nullptr);
   }

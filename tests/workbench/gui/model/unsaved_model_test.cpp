@@ -1,3 +1,4 @@
+#include "tests/support/approx.h"
 #include "tests/support/temp_folder.h"
 #include "tests/workbench/gui/running_app.h"
 
@@ -11,6 +12,7 @@
 #include <unistd.h>
 
 using namespace tangent;
+using namespace tangent::test;
 using tangent::test::HeadlessApp;
 using tangent::test::RunningApp;
 
@@ -201,7 +203,7 @@ TEST_CASE("settings that can't be written are tried again, the reason is said on
   CHECK(said("this file has format 2") == 1);
   std::filesystem::remove(folder.path() / "window.toml");
   ui.model().window().keep_settings({});
-  CHECK(read_window_settings(folder.path() / "window.toml")->text_size == doctest::Approx(1.5));
+  CHECK(read_window_settings(folder.path() / "window.toml")->text_size == approx(1.5));
 }
 
 TEST_CASE("a window that is closed with changes in no file leaves them to the next one, and nothing else") {

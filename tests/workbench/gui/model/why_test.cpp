@@ -1,10 +1,12 @@
 // Why this tick, in the window: cause and cure of the tick in view, and what a person can do about it.
+#include "tests/support/approx.h"
 #include "tests/workbench/gui/running_app.h"
 
 #include <chrono>
 #include <thread>
 
 using namespace tangent;
+using namespace tangent::test;
 using tangent::test::RunningApp;
 using tangent::test::said;
 
@@ -87,7 +89,7 @@ TEST_CASE("a cure is tried as a ghost that leaves the preset alone, and set as o
   CHECK(ui.model().time().time_machine().compared()->after_numbers.mean_iterations <
         ui.model().time().time_machine().compared()->before_numbers.mean_iterations);
   ui.click("why/set");
-  CHECK(cure.key->get(ui.model().presets().current()) == doctest::Approx(cure.to));
+  CHECK(cure.key->get(ui.model().presets().current()) == approx(cure.to));
   ui.model().presets().undo();
   CHECK(ui.model().presets().current() == before);
 }

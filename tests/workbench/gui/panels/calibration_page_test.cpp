@@ -1,3 +1,4 @@
+#include "tests/support/approx.h"
 #include "tests/workbench/gui/headless_app.h"
 #include "workbench/gui/model/asked_since.h"
 
@@ -62,7 +63,7 @@ TEST_CASE("the calibration page goes from the hook to the scale, and gives the d
   go_to_reading(ui);
   REQUIRE(calibration.scale());
   REQUIRE(*calibration.scale());
-  CHECK(**calibration.scale() == doctest::Approx(2.0 * kFalconUncalibratedScale));
+  CHECK(**calibration.scale() == approx(2.0 * kFalconUncalibratedScale));
   CHECK(calibration.kept_text().empty());
   CHECK(calibration.view().sent_n == Vec3(0.0));
   ui.frames(2);

@@ -1,4 +1,5 @@
 // Every action of the window is a command, and every command does what it says or says why not.
+#include "tests/support/approx.h"
 #include "tests/support/paths.h"
 #include "tests/support/temp_folder.h"
 #include "tests/workbench/gui/running_app.h"
@@ -9,6 +10,7 @@
 #include <set>
 
 using namespace tangent;
+using namespace tangent::test;
 using tangent::test::HeadlessApp;
 using tangent::test::RunningApp;
 
@@ -501,9 +503,9 @@ TEST_CASE("a line that can't be run says what is wrong and what is allowed") {
   CHECK(why("pause maybe").find("choose one of: on, off") != std::string::npos);
   const auto solver = [&]() -> const SolverSettings& { return ui.model().presets().current().solver; };
   CHECK(run_line(commands, "Curvature gain 12").has_value());
-  CHECK(solver().gain_curvature_m == doctest::Approx(12e-3).epsilon(1e-12));
+  CHECK(solver().gain_curvature_m == approx(12e-3).epsilon(1e-12));
   CHECK(run_line(commands, "curvature gain 0.013 m").has_value());
-  CHECK(solver().gain_curvature_m == doctest::Approx(13e-3).epsilon(1e-12));
+  CHECK(solver().gain_curvature_m == approx(13e-3).epsilon(1e-12));
   CHECK(run_line(commands, "  method  NEWTON ").has_value());
   CHECK(solver().method == Method::newton);
 }

@@ -2,11 +2,13 @@
 #include "tests/support/sanitized.h"
 #include "tests/workbench/gui/running_app.h"
 
+#include "tests/support/approx.h"
 #include "workbench/gui/panels/panels.h"
 
 #include <iterator>
 
 using namespace tangent;
+using namespace tangent::test;
 using tangent::test::HeadlessApp;
 using tangent::test::RunningApp;
 
@@ -90,7 +92,7 @@ TEST_CASE("the crease angle is live: the mesh is built anew, the view and the pi
   ui.frame();
   ui.type("2");
   ui.key(HeadlessApp::kEnter);
-  CHECK(ui.model().scene().crease_angle_rad() == doctest::Approx(2.0 * kDegree));
+  CHECK(ui.model().scene().crease_angle_rad() == approx(2.0 * kDegree));
   CHECK(ui.model().scene().audit()->crease_edges == ui.model().scene().audit()->edges);
   CHECK(ui.model().view().camera == camera);
   CHECK(ui.model().view().picked_triangle == 3);
@@ -127,10 +129,10 @@ TEST_CASE("a slice across the view, chosen again, is across the view as it is no
     REQUIRE(ui.model().view().slice.has_value());
     return glm::dot(ui.model().view().slice->normal, ui.model().view().camera.forward());
   };
-  CHECK(choose() == doctest::Approx(-1.0));
+  CHECK(choose() == approx(-1.0));
   ui.model().view().camera.orbit(0.8, 0.2);
   CHECK(glm::dot(ui.model().view().slice->normal, ui.model().view().camera.forward()) > -0.95);
-  CHECK(choose() == doctest::Approx(-1.0));
+  CHECK(choose() == approx(-1.0));
 }
 
 TEST_CASE("the slice's choice says what the plane is, whoever set it") {

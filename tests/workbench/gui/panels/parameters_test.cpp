@@ -1,4 +1,5 @@
 // Value fields, undo, favourites, A and B: effects of typing and dragging on the preset.
+#include "tests/support/approx.h"
 #include "tests/workbench/gui/running_app.h"
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <string>
 
 using namespace tangent;
+using namespace tangent::test;
 using tangent::test::HeadlessApp;
 using tangent::test::RunningApp;
 using tangent::test::said;
@@ -58,7 +60,7 @@ TEST_CASE("Tab commits and goes on to the next value") {
   ui.type("12");
   ui.key(HeadlessApp::kEnter);
   CHECK(ui.model().presets().current().solver.gain_overall == 0.5);
-  CHECK(ui.model().presets().current().solver.gain_curvature_m == doctest::Approx(0.012));
+  CHECK(ui.model().presets().current().solver.gain_curvature_m == approx(0.012));
 }
 
 TEST_CASE("a typed value out of range is cut to it with a warning - rubbish is refused with an error") {
@@ -119,14 +121,14 @@ TEST_CASE("the display's controller is tuned in a section of its own, and bounds
   ui.type("3");
   ui.key(HeadlessApp::kEnter);
   CHECK(ui.model().devices().session()->preset().controller.p_per_s2 == 2500.0);
-  CHECK(ui.model().devices().session()->preset().controller.highest_m == doctest::Approx(3e-3));
+  CHECK(ui.model().devices().session()->preset().controller.highest_m == approx(3e-3));
   ui.run(3000);
   double furthest = 0.0;
   for (std::uint64_t tick = 1000; tick < 3000; ++tick) {
     ui.model().time().select_tick(tick);
     furthest = std::max(furthest, ui.model().time().tick().record()->device.cld_command_m);
   }
-  CHECK(furthest == doctest::Approx(3e-3));
+  CHECK(furthest == approx(3e-3));
 }
 
 TEST_CASE("every key of the schema has its row in the panel of its table, wherever it means anything") {

@@ -1,3 +1,4 @@
+#include "tests/support/approx.h"
 #include "tests/workbench/gui/headless_app.h"
 
 #include <imgui.h>
@@ -56,7 +57,7 @@ TEST_CASE("the scene can be placed on the device while no force is sent, and whi
   ui.type("90");
   ui.key(257);
   draw_after(ui, 5);
-  CHECK(degrees_of(placed(ui).rotation).z == doctest::Approx(90.0));
+  CHECK(degrees_of(placed(ui).rotation).z == approx(90.0));
   CHECK(placed(ui).scale == 0.5);
 }
 

@@ -1,5 +1,6 @@
 // 2D scenes in the window, conditions by name, and the panel "Smoothness as felt".
 #include "core/io/rendering_condition.h"
+#include "tests/support/approx.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/temp_folder.h"
 #include "tests/workbench/gui/headless_app.h"
@@ -61,9 +62,9 @@ TEST_CASE("the inset keeps off a polygon, and F frames it again and again") {
           0.25f * (app.app().items().find("view")->max.x - app.app().items().find("view")->min.x));
     for (int again = 0; again < 2; ++again) {
       app.drag("view", {60.0f, 20.0f});
-      CHECK(outline().min.x == doctest::Approx(framed.min.x + 60.0f));
+      CHECK(outline().min.x == approx(framed.min.x + 60.0f));
       app.key('F');
-      CHECK(outline().min.x == doctest::Approx(framed.min.x));
+      CHECK(outline().min.x == approx(framed.min.x));
     }
   }
 }
@@ -97,12 +98,12 @@ TEST_CASE("the panel on smoothness gives the verdict, and its button the heat ma
   CHECK(app.model().map().on);
   CHECK(app.model().map().quantity == MapQuantity::facet_angle);
   CHECK(app.model().map().automatic_range());
-  CHECK(*app.model().map().limit() == doctest::Approx(0.2 * kDegree));
+  CHECK(*app.model().map().limit() == approx(0.2 * kDegree));
   app.click("perception/worst/0");
   CHECK(app.model().view().picked_triangle == app.model().scene().perception()->conditions[2].worst[0].triangle);
   app.click("perception/condition");
   app.click("perception/condition/P1: " + std::string(find_condition("P1")->words));
-  CHECK(*app.model().map().limit() == doctest::Approx(14.8 * kDegree));
+  CHECK(*app.model().map().limit() == approx(14.8 * kDegree));
   CHECK(app.model().map().statistics().share_beyond_limit < 0.5);
   REQUIRE(app.app().items().find("view/map_bar/limit") != nullptr);
   const ItemRect bar = *app.app().items().find("view/map_bar");

@@ -1,10 +1,12 @@
 // The transport bar, the iteration table and the plots, driven by a user: effects on the tick in view.
+#include "tests/support/approx.h"
 #include "tests/workbench/gui/running_app.h"
 
 #include <cmath>
 #include <iterator>
 
 using namespace tangent;
+using namespace tangent::test;
 using tangent::test::HeadlessApp;
 using tangent::test::RunningApp;
 
@@ -93,7 +95,7 @@ TEST_CASE("the wheel over a plot zooms time about the pointer once it is held") 
   const double before = tick_at(), span = ui.model().time().axis().span();
   ui.wheel(at, 2.0f);
   CHECK(ui.model().time().axis().span() < span);
-  CHECK(tick_at() == doctest::Approx(before));
+  CHECK(tick_at() == approx(before));
 }
 
 TEST_CASE("dragging a plot pans and stops following - clicking it selects that tick") {

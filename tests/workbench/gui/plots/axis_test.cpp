@@ -1,3 +1,4 @@
+#include "tests/support/approx.h"
 #include "workbench/gui/plots/tick_locator.h"
 #include "workbench/gui/plots/time_axis.h"
 #include "workbench/gui/plots/value_axis.h"
@@ -9,6 +10,7 @@
 #include <vector>
 
 using namespace tangent;
+using namespace tangent::test;
 
 namespace {
 
@@ -88,7 +90,7 @@ TEST_CASE("zooming about the pointer keeps the tick under it") {
     for (const double factor : {0.8, 1.25, 0.5}) {
       const double before = axis.tick_at(x, 100.0, 800.0);
       axis.zoom(factor, before);
-      CHECK(axis.tick_at(x, 100.0, 800.0) == doctest::Approx(before).epsilon(1e-12));
+      CHECK(axis.tick_at(x, 100.0, 800.0) == approx(before).epsilon(1e-12));
     }
   }
 }
@@ -137,15 +139,15 @@ TEST_CASE("zooming values by hand keeps the value under the pointer and stops th
   axis.fit_linear({-2.0f, 6.0f}, true);
   const double share = axis.share(1.5, false);
   axis.zoom(0.5, 1.5, false);
-  CHECK(axis.share(1.5, false) == doctest::Approx(share));
+  CHECK(axis.share(1.5, false) == approx(share));
   axis.fit_linear({-100.0f, 100.0f}, true);
-  CHECK(axis.share(1.5, false) == doctest::Approx(share));
+  CHECK(axis.share(1.5, false) == approx(share));
   ValueAxis log;
   log.fit_log({0.001f, 50.0f}, 1e-6);
   const double log_share = log.share(0.1, true);
   log.zoom(0.7, 0.1, true);
-  CHECK(log.share(0.1, true) == doctest::Approx(log_share));
-  CHECK(log.value_at(log_share, true) == doctest::Approx(0.1));
+  CHECK(log.share(0.1, true) == approx(log_share));
+  CHECK(log.value_at(log_share, true) == approx(0.1));
 }
 
 TEST_CASE("a log axis holds zero, negative and enormous values") {

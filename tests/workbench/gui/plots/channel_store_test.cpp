@@ -1,4 +1,5 @@
 #include "workbench/gui/plots/channel_store.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -9,6 +10,7 @@
 #include <vector>
 
 using namespace tangent;
+using namespace tangent::test;
 
 namespace {
 
@@ -126,8 +128,8 @@ TEST_CASE("means and RMS over any range equal those summed sample by sample") {
     const SampleSums fast = store.sums(0, from, to);
     REQUIRE(fast.count == slow.count);
     if (slow.count == 0) continue;
-    REQUIRE(fast.mean() == doctest::Approx(slow.mean()).epsilon(1e-9));
-    REQUIRE(fast.rms() == doctest::Approx(slow.rms()).epsilon(1e-9));
+    REQUIRE(fast.mean() == approx(slow.mean()).epsilon(1e-9));
+    REQUIRE(fast.rms() == approx(slow.rms()).epsilon(1e-9));
   }
 }
 

@@ -1,4 +1,5 @@
 #include "workbench/gui/plots/spectrum.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -7,6 +8,7 @@
 #include <vector>
 
 using namespace tangent;
+using namespace tangent::test;
 
 namespace {
 
@@ -31,8 +33,8 @@ TEST_CASE("a sine is found at its frequency with its amplitude, whatever it ride
     const Spectrum s = amplitude_spectrum(store, 0, 0, 20'000, kRate);
     CHECK(s.segment_ticks == 4096);
     CHECK(s.segments > 3);
-    CHECK(s.peak_hz() == doctest::Approx(hz));
-    CHECK(static_cast<double>(s.amplitude[s.peak]) == doctest::Approx(0.03).epsilon(0.001));
+    CHECK(s.peak_hz() == approx(hz));
+    CHECK(static_cast<double>(s.amplitude[s.peak]) == approx(0.03).epsilon(0.001));
     CHECK(static_cast<double>(s.amplitude[s.peak / 2]) < 1e-5);
     CHECK(s.peak_above(hz - 1.0) == s.peak);
     CHECK(s.peak_above(hz + 1.0) > s.peak);
@@ -51,7 +53,7 @@ TEST_CASE("a short range has a coarser spectrum, too short a one none - a consta
   const ChannelStore store = sine(125.0, 1.0, 0.0, 5000);
   const Spectrum s = amplitude_spectrum(store, 0, 100, 700, kRate);
   CHECK(s.segment_ticks == 512);
-  CHECK(s.peak_hz() == doctest::Approx(125.0));
+  CHECK(s.peak_hz() == approx(125.0));
   CHECK(amplitude_spectrum(store, 0, 100, 160, kRate).empty());
   CHECK(amplitude_spectrum(store, 0, 9000, 9900, kRate).empty());
   const ChannelStore constant = sine(0.0, 0.0, 2.0, 5000);
@@ -68,5 +70,5 @@ TEST_CASE("segments with lost ticks are left out") {
   const Spectrum s = amplitude_spectrum(store, 0, 0, 20'000, kRate);
   REQUIRE(s.segments > 0);
   CHECK(s.segments < 5);
-  CHECK(static_cast<double>(s.amplitude[s.peak]) == doctest::Approx(1.0).epsilon(0.001));
+  CHECK(static_cast<double>(s.amplitude[s.peak]) == approx(1.0).epsilon(0.001));
 }

@@ -1,6 +1,7 @@
 #include "workbench/gui/render/camera.h"
 
 #include "core/lab/objects/generate.h"
+#include "tests/support/approx.h"
 #include "workbench/gui/render/scene_renderer.h"
 
 #include <doctest/doctest.h>
@@ -8,6 +9,7 @@
 #include <array>
 
 using namespace tangent;
+using namespace tangent::test;
 
 namespace {
 
@@ -48,8 +50,8 @@ TEST_CASE("the target is in the middle of the view, and behind the eye nothing i
   Camera camera;
   camera.frame(cube_box(Vec3(0.0), 0.04));
   const Vec3 middle = camera.project(camera.target, kWidth, kHeight);
-  CHECK(middle.x == doctest::Approx(400.0));
-  CHECK(middle.y == doctest::Approx(300.0));
+  CHECK(middle.x == approx(400.0));
+  CHECK(middle.y == approx(300.0));
   CHECK(camera.project(camera.eye() - 0.1 * camera.forward(), kWidth, kHeight).z < 0.0);
 }
 
@@ -67,8 +69,8 @@ TEST_CASE("a shifted camera sees its target there, whatever its direction, and z
   for (const double by : {0.0, 0.5, 1.1}) {
     camera.orbit(by, 0.3 * by);
     const Vec3 target = camera.project(camera.target, kWidth, kHeight);
-    CHECK(target.x == doctest::Approx(400.0 + 0.25 * kHeight));
-    CHECK(target.y == doctest::Approx(300.0 - 0.1 * kHeight));
+    CHECK(target.x == approx(400.0 + 0.25 * kHeight));
+    CHECK(target.y == approx(300.0 - 0.1 * kHeight));
   }
   const Vec2 pixel(620.0, 180.0);
   const Ray before = camera.ray_through(pixel, kWidth, kHeight);
@@ -101,7 +103,7 @@ TEST_CASE("framing shows every corner of the box and wastes little of the view")
         CHECK(pixel.z < 1.0);
         furthest = std::max({furthest, std::abs(pixel.x - 400.0) / 400.0, std::abs(pixel.y - 300.0) / 300.0});
       }
-      CHECK(furthest == doctest::Approx(1.0).epsilon(1e-9));
+      CHECK(furthest == approx(1.0).epsilon(1e-9));
     }
   }
 }
@@ -112,8 +114,8 @@ TEST_CASE("panning moves the target with the pointer") {
   const Vec3 before = camera.target;
   camera.pan(30.0, -20.0, kHeight);
   const Vec3 pixel = camera.project(before, kWidth, kHeight);
-  CHECK(pixel.x == doctest::Approx(430.0).epsilon(1e-6));
-  CHECK(pixel.y == doctest::Approx(280.0).epsilon(1e-6));
+  CHECK(pixel.x == approx(430.0).epsilon(1e-6));
+  CHECK(pixel.y == approx(280.0).epsilon(1e-6));
 }
 
 TEST_CASE("zooming keeps what lies under the pointer at the target's depth, within limits") {
@@ -124,8 +126,8 @@ TEST_CASE("zooming keeps what lies under the pointer at the target's depth, with
   const Vec3 under = ray.origin + ray.direction * (camera.distance_m / glm::dot(ray.direction, camera.forward()));
   camera.zoom_at(0.5, pointer, kWidth, kHeight);
   const Vec3 pixel = camera.project(under, kWidth, kHeight);
-  CHECK(pixel.x == doctest::Approx(pointer.x).epsilon(1e-9));
-  CHECK(pixel.y == doctest::Approx(pointer.y).epsilon(1e-9));
+  CHECK(pixel.x == approx(pointer.x).epsilon(1e-9));
+  CHECK(pixel.y == approx(pointer.y).epsilon(1e-9));
   for (int i = 0; i < 200; ++i) camera.zoom(0.5);
   CHECK(camera.distance_m > 0.0);
   CHECK(camera.near_m() < camera.far_m());
@@ -150,10 +152,10 @@ TEST_CASE(
       Box drawn;
       for (const Vec3& p : points) drawn.include(camera.project(p, kWidth, kHeight));
       CAPTURE(yaw);
-      CHECK(drawn.min.x == doctest::Approx(kWidth - drawn.max.x).epsilon(1e-6));
-      CHECK(drawn.min.y == doctest::Approx(kHeight - drawn.max.y).epsilon(1e-6));
+      CHECK(drawn.min.x == approx(kWidth - drawn.max.x).epsilon(1e-6).scale(1.0));
+      CHECK(drawn.min.y == approx(kHeight - drawn.max.y).epsilon(1e-6).scale(1.0));
       const double filled = std::max((drawn.max.x - drawn.min.x) / kWidth, (drawn.max.y - drawn.min.y) / kHeight);
-      CHECK(filled == doctest::Approx(1.0 / margin).epsilon(1e-6));
+      CHECK(filled == approx(1.0 / margin).epsilon(1e-6));
     }
   }
   const Camera before;

@@ -1,5 +1,6 @@
 #include "workbench/gui/render/quantity_text.h"
 
+#include "tests/support/approx.h"
 #include "workbench/gui/theme/palette.h"
 
 #include <doctest/doctest.h>
@@ -7,6 +8,7 @@
 #include <limits>
 
 using namespace tangent;
+using namespace tangent::test;
 
 TEST_CASE("lengths take the unit that fits") {
   CHECK(length_text(0.0) == "0 mm");
@@ -23,10 +25,10 @@ TEST_CASE("lengths take the unit that fits") {
 }
 
 TEST_CASE("scale bars have round lengths that fit") {
-  CHECK(round_number_below(0.0349) == doctest::Approx(0.02));
-  CHECK(round_number_below(0.05) == doctest::Approx(0.05));
-  CHECK(round_number_below(9.99) == doctest::Approx(5.0));
-  CHECK(round_number_below(1.0) == doctest::Approx(1.0));
+  CHECK(round_number_below(0.0349) == approx(0.02));
+  CHECK(round_number_below(0.05) == approx(0.05));
+  CHECK(round_number_below(9.99) == approx(5.0));
+  CHECK(round_number_below(1.0) == approx(1.0));
 }
 
 TEST_CASE("iterations beyond the last have its colour") { CHECK(iteration_colour(9, 5) == iteration_colour(4, 5)); }

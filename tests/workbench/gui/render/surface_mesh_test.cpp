@@ -2,6 +2,7 @@
 
 #include "core/lab/objects/generate.h"
 #include "core/surface/mesh_patch.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -10,6 +11,7 @@
 #include <utility>
 
 using namespace tangent;
+using namespace tangent::test;
 
 namespace {
 
@@ -152,7 +154,7 @@ TEST_CASE("the coarse stand-in of a dense mesh keeps to its budget, its shape an
     CHECK(coarse.triangles() > target / 4);
     for (const SurfaceVertex& vertex : coarse.vertices) {
       const Vec3 p = to_vec(vertex.position) * scale;
-      CHECK(glm::length(p) == doctest::Approx(0.040).epsilon(0.02));
+      CHECK(glm::length(p) == approx(0.040).epsilon(0.02));
       CHECK(glm::dot(unpacked(vertex.normal), unit(p)) > 0.99);
     }
   }
@@ -177,7 +179,7 @@ TEST_CASE("each crease and boundary edge is listed once") {
     CHECK(e.kind == EdgeKind::crease);
     length += glm::length(to_vec(e.b) - to_vec(e.a));
   }
-  CHECK(length == doctest::Approx(12 * 0.0566).epsilon(1e-3));
+  CHECK(length == approx(12 * 0.0566).epsilon(1e-3));
   PolygonMesh one;
   one.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   one.add_face({0, 1, 2});

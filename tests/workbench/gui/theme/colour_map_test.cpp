@@ -1,4 +1,5 @@
 #include "workbench/gui/theme/colour_map.h"
+#include "tests/support/approx.h"
 
 #include <doctest/doctest.h>
 
@@ -9,6 +10,7 @@
 #include <string>
 
 using namespace tangent;
+using namespace tangent::test;
 
 namespace {
 
@@ -71,8 +73,8 @@ Rgba without_cone(const Rgba& c, std::size_t missing) {
 }  // namespace
 
 TEST_CASE("Oklab has white at lightness 1, black at 0 and grey without colour") {
-  CHECK(to_oklab(rgb_hex(0xFFFFFF)).L == doctest::Approx(1.0).epsilon(1e-4));
-  CHECK(to_oklab(rgb_hex(0x000000)).L == doctest::Approx(0.0));
+  CHECK(to_oklab(rgb_hex(0xFFFFFF)).L == approx(1.0).epsilon(1e-4));
+  CHECK(to_oklab(rgb_hex(0x000000)).L == approx(0.0).scale(1.0));
   const Oklab grey = to_oklab(rgb_hex(0x777777));
   CHECK(std::hypot(grey.a, grey.b) < 1e-4);
 }
@@ -97,7 +99,7 @@ TEST_CASE("the map about a middle is light there and darkens alike to both sides
   for (std::size_t i = 1; i < table.size() / 2; ++i) {
     CHECK(to_oklab(table[i]).L > to_oklab(table[i - 1]).L);
     CHECK(to_oklab(table[table.size() - 1 - i]).L > to_oklab(table[table.size() - i]).L);
-    CHECK(to_oklab(table[i]).L == doctest::Approx(to_oklab(table[table.size() - 1 - i]).L).epsilon(0.06));
+    CHECK(to_oklab(table[i]).L == approx(to_oklab(table[table.size() - 1 - i]).L).epsilon(0.06));
   }
   CHECK(oklab_distance(table.front(), table.back()) > 0.25);
 }

@@ -1,6 +1,7 @@
 // The trial of a preset in the simulated hand, against the theory of a flat wall.
 #include "core/io/mesh_io.h"
 #include "core/lab/objects/generate.h"
+#include "tests/support/approx.h"
 #include "tests/support/meshes.h"
 #include "tests/workbench/session/session_fixture.h"
 #include "workbench/session/safe_range/safe_sweep.h"
@@ -102,7 +103,7 @@ TEST_CASE("a damped wall that is passive by Colgate and Brown is judged stable")
       CHECK(out.safety == Safety::stable);
       CHECK(out.energy_share < 0.1);
     }
-  CHECK(passive_stiffness(2.0, 0.5, 1e-3) == doctest::Approx(3000.0));
+  CHECK(passive_stiffness(2.0, 0.5, 1e-3) == approx(3000.0));
   CHECK(passive_stiffness(1.0, -1.5, 1e-3) == 0.0);
 }
 
@@ -153,12 +154,12 @@ TEST_CASE("what is faster than a frequency is measured by itself: no offset, no 
   CHECK(rms_above(slow, kDt_s, 40.0) < 1e-3);
   const double alone = rms_above(fast, kDt_s, 40.0);
   CHECK(alone > 0.1 * std::sqrt(0.5));
-  CHECK(rms_above(both, kDt_s, 40.0) == doctest::Approx(alone).epsilon(0.02));
+  CHECK(rms_above(both, kDt_s, 40.0) == approx(alone).epsilon(0.02));
   const std::vector<Vec3> tone(fast.size(), Vec3(0.0));
   CHECK(rms_above(tone, kDt_s, 40.0) == 0.0);
   CHECK(rms_above({}, kDt_s, 40.0) == 0.0);
   for (int i = 0; i < 500; ++i) fast[static_cast<std::size_t>(i)] = Vec3(sine(120.0, i * kDt_s), 0.0, 0.0);
-  CHECK(rms_above(fast, kDt_s, 40.0) == doctest::Approx(std::sqrt(0.5)).epsilon(1e-3));
+  CHECK(rms_above(fast, kDt_s, 40.0) == approx(std::sqrt(0.5)).epsilon(1e-3));
 }
 
 // Encoder steps of 0.03 mm under a damping of 30 N s/m, the largest that the simulated device renders, are leaps of the
