@@ -60,16 +60,6 @@ bool is_known(const RenderPlane& plane, const PushingPlanes& planes, const Vec3&
   });
 }
 
-/// Whether each of the planes faces as one of the others does.
-bool face_alike(const PushingPlanes& planes, const PushingPlanes& others) {
-  return planes.all().size() == others.all().size() &&
-         std::all_of(planes.all().begin(), planes.all().end(), [&](const RenderPlane& plane) {
-           return std::any_of(others.all().begin(), others.all().end(), [&](const RenderPlane& other) {
-             return glm::dot(plane.normal, other.normal) > kJumpCosine;
-           });
-         });
-}
-
 /// Leads the circle out of the tracked place and of all else that it is in from there.
 class LeadingOut {
  public:
@@ -160,13 +150,14 @@ PlanarWayOut find_planar_way_out(const PlanarContext& x, const PlanarTrack& trac
 
   LeadingOut leading(x, track);
   const double known_m = std::max(last_planes.deepest_m(), leading.planes().deepest_m());
-  if (before.touched.count > 0) leading.follow_last(last, last_planes);
+  // A circle that is out of what is nearest is out of all that it does not touch where it is.
+  if (before.touched.count > 0 && leading.planes().deepest_m() > 0.0) leading.follow_last(last, last_planes);
   leading.look_for_more(known_m);
 
   PlanarWayOut out;
   out.places = leading.touched();
   if (out.places.count > 0) out.way_out_m = leading.way();
-  if ((out.places.count > 0 || before.touched.count > 0) && !face_alike(leading.planes(), last_planes))
+  if (out.places.count > 0 || before.touched.count > 0)
     out.leapt = has_leapt(last_planes.way_out(), leading.way(), x.moved_m, x.settings.switch_hysteresis_m);
   out.evaluations = leading.evaluations();
   return out;

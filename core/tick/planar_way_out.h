@@ -18,7 +18,7 @@ namespace tangent {
 struct PlanarWayOut {
   Vec3 way_out_m{0.0};  ///< zero: the tracked place alone pushes, or nothing does
   TouchedPlaces places;
-  bool leapt = false;  ///< the way has, since other places push than at the last tick
+  bool leapt = false;  ///< the way has, as where other places push than at the last tick
   int evaluations = 0;
 };
 

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <numbers>
+#include <optional>
 
 using namespace tangent;
 using namespace tangent::test;
@@ -219,6 +220,81 @@ TEST_CASE("2D: over outlines made at random no change that the motion does not e
   CHECK(unmarked == 0);
   CHECK(without == 0);
   CHECK(events[1] < events[0]);
+}
+
+namespace {
+
+/// How far it is to the curve, over places at each hundredth of its patches.
+double distance_to(const PlanarCurve& curve, const Vec2& world) {
+  double least = 1.0;
+  for (std::uint32_t i = 0; i < curve.patch_count(); ++i)
+    for (int k = 0; k <= 100; ++k)
+      least = std::min(least,
+                       glm::distance(world - curve.origin(), curve.sample(i, LocalCentre::bisectors, 0.01 * k).place));
+  return least;
+}
+
+/// Outlines with bays, open lines that zigzag, some vertices given twice; none where one crosses itself.
+std::optional<PlanarCurve> zigzag(Random& random) {
+  const bool round = random.below(2) == 0;
+  const int count = 6 + static_cast<int>(random.below(40));
+  const double rough = random.in(0.02, 0.5);
+  std::vector<Vec2> v;
+  for (int i = 0; i < count; ++i) {
+    const double a = 2.0 * std::numbers::pi * i / count, r = 0.05 * (1.0 + random.in(-rough, rough));
+    v.push_back(round ? r * Vec2(std::cos(a), std::sin(a))
+                      : Vec2(0.1 * i / count - 0.05, random.in(-rough, rough) * 0.04));
+    if (i > 0 && i + 1 < count && random.below(3) == 0) v.push_back(v.back());
+  }
+  if (random.below(2) == 0) std::reverse(v.begin(), v.end());
+  auto curve = PlanarCurve::build({"zigzag", std::move(v), round && random.below(3) > 0});
+  if (!curve) return std::nullopt;
+  return std::move(*curve);
+}
+
+}  // namespace
+
+TEST_CASE("2D: a finger that goes anywhere, through walls too, is not pushed in free air, and every leap is marked") {
+  Random random(41);
+  int ticks = 0, several = 0, not_finite = 0, in_free_air = 0, unmarked = 0, from_state = 0;
+  for (int outline = 0; outline < rounds(60); ++outline) {
+    const auto curve = zigzag(random);
+    if (!curve) continue;
+    const double radius = std::pow(10.0, random.in(-3.2, -1.5)), shake = random.in(0.0, 5e-5);
+    Preset preset = rendered_as_decided(radius);
+    preset.force.limit_n = 1e6;
+    TickState state;
+    Vec2 at = 0.1 * Vec2(random.in(-1.0, 1.0), random.in(-1.0, 1.0)), target = at;
+    Vec3 last_force(0.0);
+    for (int i = 0; i < 2000; ++i) {
+      if (i % 200 == 0) target = 0.07 * Vec2(random.in(-1.0, 1.0), random.in(-1.0, 1.0));
+      const Vec2 way = target - at, last = at;
+      at += std::min(1.0, random.in(0.0, 2e-4) / std::max(1e-9, glm::length(way))) * way;
+      at += Vec2(random.in(-shake, shake), random.in(-shake, shake));
+      const TickInput input = at_position(1e-3 * i, {at.x, at.y, 0.0});
+      const bool was_several = state.touched.count > 0;
+      TickState again = state;
+      const TickOutput out = step_planar(*curve, preset, input, state, nullptr);
+      BitHash here, alone;
+      here.add(out), alone.add(step_planar(*curve, preset, input, again, nullptr));
+      ++ticks;
+      from_state += here.value() != alone.value();
+      not_finite += !all_finite(out);
+      several += state.touched.count > 0;
+      const bool pushed = glm::length(out.decided_force_n) > 1e-9 && is_converged(out.status);
+      if (pushed && i % 10 == 0 && out.penetration_m < radius) in_free_air += distance_to(*curve, at) > radius + 1e-4;
+      const double change = glm::distance(out.decided_force_n, last_force) / preset.force.stiffness_n_per_m;
+      if (i > 0 && (was_several || state.touched.count > 0) && out.event == TickEvent::none && is_converged(out.status))
+        unmarked += change > 3.0 * glm::distance(at, last) + kLeapDepth * preset.solver.switch_hysteresis_m;
+      last_force = out.decided_force_n;
+    }
+  }
+  MESSAGE(ticks << " ticks, " << several << " with several places");
+  CHECK(several > ticks / 20);
+  CHECK(not_finite == 0);
+  CHECK(in_free_air == 0);
+  CHECK(unmarked == 0);
+  CHECK(from_state == 0);
 }
 
 TEST_CASE("2D: a tick's force from all places comes from its state alone, moved and turned with the polygon") {
