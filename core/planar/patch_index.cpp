@@ -1,5 +1,7 @@
 #include "core/planar/patch_index.h"
 
+#include "core/mesh/polygon_mesh.h"
+
 #include <bit>
 #include <cmath>
 #include <numbers>
