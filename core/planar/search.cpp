@@ -51,8 +51,8 @@ class PatchSearch {
     if (p_.joint_after != CurveJoint::smooth && end_contact(x_, i_, true, corner)) consider(corner);
     if (p_.joint_before == CurveJoint::end && end_contact(x_, i_, false, corner)) consider(corner);
     const bool several = may_hold_several();
-    if (!several && is_known_here(rival)) return found;
-    const bool known_here = is_known_here(rival);
+    const bool known_here = rival.besides.feature == Feature::face && rival.besides.patch == i_;
+    if (!several && known_here) return found;
     for_brackets(several, [&](double low, double high) {
       if (known_here && low <= rival.besides.t && rival.besides.t <= high) return;
       consider(solve_between(low, high));
@@ -61,10 +61,6 @@ class PatchSearch {
   }
 
  private:
-  bool is_known_here(const PlanarRival& rival) const {
-    return rival.besides.feature == Feature::face && rival.besides.patch == i_;
-  }
-
   /// Parts of the patch where the contact passes from ahead of the line's place to behind it: stable contacts.
   template <class Bracket>
   void for_brackets(bool several, Bracket bracket) {

@@ -5,12 +5,15 @@
 #include "core/tick/pushing_planes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 namespace tangent {
 namespace {
 
-/// Lines that following a place from the last tick may take.
+/// Lines that following a place from the last tick may take, as the tracked one. Fewer: the other side of a sharp notch
+/// may get lost where the circle lies behind it, led out of the one.
 constexpr int kFollowLines = 12;
 
 RenderPlane plane_at(const PlanarContext& x, const Vec2& point, const Vec2& normal) {
