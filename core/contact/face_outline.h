@@ -1,6 +1,7 @@
 // What a first look at a face asks of it besides its corners. It takes roots, so it is kept (contact/patch_cache.h).
 #pragma once
 
+#include "core/base/lanes.h"
 #include "core/mesh/contact_mesh.h"
 #include "core/surface/pn_patch.h"
 
@@ -9,8 +10,18 @@
 
 namespace tangent {
 
+/// The three corners of a face, and the sides from each to the next, side by side in floats; the last is the first
+/// again.
+struct FaceLanes {
+  FourVec3 at;       ///< of corners, from corner 0
+  FourVec3 normals;  ///< at corners
+  FourVec3 middle_normals;
+  float size_m = 0.0f;  ///< a corner's greatest distance from corner 0, rounded up
+};
+
 /// Local coordinates, m, of a usable triangle.
 struct FaceOutline {
+  Vec3 origin{0.0};  ///< corner 0
   /// The control normals over the middles of the sides, from corner 0 to 1 and so on, in Bernstein form: none is longer
   /// than 1.
   std::array<Vec3, 3> middle_normals{};
@@ -18,6 +29,7 @@ struct FaceOutline {
   /// What the patch is off the flat triangle at most, times three, m: what sides lean out of their ends' planes, or the
   /// length of a crease.
   double lean_m = 0.0;
+  FaceLanes lanes;
 };
 
 FaceOutline face_outline(const ContactMesh& mesh, std::uint32_t t, NormalForm form);

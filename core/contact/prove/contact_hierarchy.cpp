@@ -1,7 +1,7 @@
 #include "core/contact/prove/contact_hierarchy.h"
 
+#include "core/base/float_bounds.h"
 #include "core/contact/box_tree.h"
-#include "core/contact/prove/float_bounds.h"
 #include "core/contact/prove/normal_set.h"
 
 #include <algorithm>
@@ -44,7 +44,6 @@ ContactHierarchy::FourQuery::FourQuery(const ContactQuery& query, const Bounds& 
   double size = glm::distance(query.centre, all.middle()) + all.radius_m;
   for (int k = 0; k < 3; ++k) {
     const auto at = static_cast<std::size_t>(k);
-    const auto all_four = [](double x) { return Four{} + static_cast<float>(x); };
     centre[at] = all_four(query.centre[k]);
     ahead[at] = all_four(is_led ? query.ahead[k] : 0.0);
     size += std::abs(query.centre[k]) + std::abs(query.ahead[k]);
@@ -53,24 +52,26 @@ ContactHierarchy::FourQuery::FourQuery(const ContactQuery& query, const Bounds& 
     high[at] = all_four(query.region.max[k]);
     size += std::abs(query.region.min[k]) + std::abs(query.region.max[k]);
   }
-  margin_m = static_cast<float>(query.steady_only ? 0.0 : query.margin_m);
-  nearest2 = square(query.nearest_m);
-  inside2 = square(query.inside_m);
-  farthest2 = std::max(nearest2, inside2);
+  margin_m = all_four(query.steady_only ? 0.0 : query.margin_m);
+  const float outside2 = square(query.nearest_m), within2 = square(query.inside_m);
+  nearest2 = Four{} + outside2;
+  inside2 = Four{} + within2;
+  farthest2 = std::max(outside2, within2);
+  has_inside = within2 >= 0.0f;
   // Where steady ground is not asked for by itself none is.
   const bool can_be_steady = query.steady_ground && !query.steady_only;
-  least_steady = can_be_steady ? static_cast<float>(kSteadyRoom - 1.0) + 0.5f * kSteadyRounding
-                               : std::numeric_limits<float>::infinity();
-  nearest_m = static_cast<float>(query.nearest_m);
-  inside_m = static_cast<float>(query.inside_m);
+  least_steady = Four{} + (can_be_steady ? static_cast<float>(kSteadyRoom - 1.0) + 0.5f * kSteadyRounding
+                                         : std::numeric_limits<float>::infinity());
+  nearest_m = all_four(query.nearest_m);
+  inside_m = all_four(query.inside_m);
   if (query.core) {
     const double led = is_led ? glm::length(query.ahead) : 0.0;
     lever_m = above(query.core->lever_m());
     behind_m = query.inside_m < 0.0 ? 0.0f : above(std::max(0.0, query.rank_m - led - query.core->reach_m()));
     size += query.core->reach_m();
     const double less = query.core->reach_m() - query.rank_m;
-    nearest_m = static_cast<float>(query.core->flattest_m() - less);
-    inside_m = static_cast<float>(query.core->least_flattest_m() - less);
+    nearest_m = all_four(query.core->flattest_m() - less);
+    inside_m = all_four(query.core->least_flattest_m() - less);
     core = FourCore(*query.core);
     const auto far = [&](double rank, double way) {
       return above(std::min<double>(std::numeric_limits<float>::max(), query.core->outside_at(rank, way)));
@@ -85,12 +86,13 @@ ContactHierarchy::FourQuery::FourQuery(const ContactQuery& query, const Bounds& 
     deep_ahead_m = deep(query.rank_m - led);
   }
   size += query.margin_m;
-  in_floats = size < kLargest;
-  room_m = static_cast<float>(kRounding * size);
+  in_floats = size < kLargest && (query.core || !(query.tilt_rad > 0.0));
+  is_plain = in_floats && !query.core && !query.steady_only;
+  room_m = all_four(kRounding * size);
 }
 
 // As is_beside and is_behind (core_proof.h) say: of steady ground, of what is here, else of the way ahead.
-ContactHierarchy::Reach ContactHierarchy::reach_of_core(const Node& node, const FourQuery& q) {
+ContactHierarchy::CoreReach ContactHierarchy::reach_of_core(const Node& node, const FourQuery& q) {
   constexpr float kSquared = 4.0f * kFloatRounding;
   constexpr float kLeastCone = 0.06f;  // cosine; is_beside asks for 0.05
   const Four zero{};
@@ -108,7 +110,7 @@ ContactHierarchy::Reach ContactHierarchy::reach_of_core(const Node& node, const 
     parts.half[k] = 0.5f * (node.max[k] - node.min[k]);
     parts.axis[k] = node.axis[k];
   }
-  const Four way = steady ? zero : zero + q.margin_m;
+  const Four way = steady ? zero : q.margin_m;
   const Four away = max(along, -along), rounding = 2.0f * q.room_m + kFloatRounding * (away + node.radius_m);
   const Four across2 = d2 - along * along, across_rounding = kSquared * d2;
   const Four cos2 = node.cos_half * node.cos_half, sin2 = node.sin_half * node.sin_half;
@@ -119,15 +121,15 @@ ContactHierarchy::Reach ContactHierarchy::reach_of_core(const Node& node, const 
       (behind > zero) & ((1.0f + kSquared) * sin2 * (across2 + across_rounding) < behind * behind);
   const FourMask is_missed = (node.cos_half > kLeastCone) & (is_beside | is_behind);
   const FourMask reached = (box2 <= q.farthest2) & ~is_missed;
-  if (!(reached[0] | reached[1] | reached[2] | reached[3])) return {box2, reached, steady, unsteady};
+  if (bits_of(reached) == 0) return {{box2, 0}, steady, unsteady};
   parts.cos_half = node.cos_half;
   parts.sin_half = node.sin_half;
   parts.radius_m = node.radius_m;
   parts.way_m = way;
   parts.far_m = steady ? zero + q.far_here_m : zero + q.far_ahead_m;
   parts.deep_m = steady ? zero + q.deep_here_m : zero + q.deep_ahead_m;
-  parts.room_m = q.room_m;
-  return {box2, reached & ~q.core.misses(parts, kLeastCone), steady, unsteady};
+  parts.room_m = q.room_m[0];
+  return {{box2, bits_of(reached & ~q.core.misses(parts, kLeastCone))}, steady, unsteady};
 }
 
 FourMask ContactHierarchy::in_region(const Node& node, const FourQuery& q) {
@@ -138,24 +140,32 @@ FourMask ContactHierarchy::in_region(const Node& node, const FourQuery& q) {
 }
 
 void ContactHierarchy::leave_out_rims(std::uint32_t index, const ContactQuery& query, Reach& reach) const {
-  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-    const std::uint32_t rim = reach.reached[lane] ? rim_of_[kFour * index + lane] : 0;
-    if (rim != 0 && misses(rims_[rim - 1], nodes_[index].at(lane), query)) reach.reached[lane] = 0;
+  for (std::uint32_t left = reach.reached; left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
+    const std::uint32_t rim = rim_of_[kFour * index + lane];
+    if (rim != 0 && misses(rims_[rim - 1], nodes_[index].at(lane), query)) reach.leave_out(lane);
   }
 }
 
 void ContactHierarchy::look_closer(const Node& node, const ContactQuery& query, Reach& reach) {
-  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-    if (!reach.reached[lane]) continue;
+  for (std::uint32_t left = reach.reached; left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
+    if (!can_hold(node.at(lane), !node.is_leaf(lane), query)) reach.leave_out(lane);
+  }
+}
+
+void ContactHierarchy::look_closer(const Node& node, const ContactQuery& query, CoreReach& of_core) {
+  for (std::uint32_t left = of_core.reach.reached; left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
     const bool is_inner = !node.is_leaf(lane);
-    const Ground ground = reach.ground(lane);
+    const Ground ground = of_core.ground(lane);
     bool holds = true;
-    if (!query.core || ground == Ground::unknown)
+    if (ground == Ground::unknown)
       holds = can_hold(node.at(lane), is_inner, query);
     else if (!is_inner || node.cos_half[lane] > kFlat)
       holds = (!query.steady_only || is_inner || stays(node.at(lane), query)) &&
               can_touch_known(node.at(lane), query, ground == Ground::steady);
-    if (!holds) reach.reached[lane] = 0;
+    if (!holds) of_core.reach.leave_out(lane);
   }
 }
 
@@ -187,15 +197,33 @@ bool ContactHierarchy::can_hold(const Bounds& node, bool is_inner, const Contact
   return (outside && along >= least) || (inside && -along >= least);
 }
 
-ContactHierarchy::Reach ContactHierarchy::reach_of_any(std::uint32_t index, const ContactQuery& query) const {
-  const Node& node = nodes_[index];
+ContactHierarchy::Reach ContactHierarchy::reach_one_by_one(const Node& node, const ContactQuery& query) const {
   Reach reach{};
   for (std::uint32_t lane = 0; lane < kFour && node.link[lane] != kNone; ++lane) {
     const Bounds part = node.at(lane);
     reach.box2[lane] = static_cast<float>(distance2_to_box(part.low(), part.high(), query.centre));
-    reach.reached[lane] = can_hold(part, !node.is_leaf(lane), query) ? -1 : 0;
+    if (can_hold(part, !node.is_leaf(lane), query)) reach.reached |= 1u << lane;
   }
-  if (!rim_of_.empty()) leave_out_rims(index, query, reach);
+  return reach;
+}
+
+ContactHierarchy::Reach ContactHierarchy::reach_of_any(std::uint32_t index, const ContactQuery& query,
+                                                       const FourQuery& four) const {
+  const Node& node = nodes_[index];
+  Reach reach;
+  if (!in_floats_ || !four.in_floats) {
+    reach = reach_one_by_one(node, query);
+  } else if (query.core) {
+    CoreReach of_core = reach_of_core(node, four);
+    if (query.steady_only) of_core.reach.reached &= bits_of(in_region(node, four));
+    look_closer(node, query, of_core);
+    reach = of_core.reach;
+  } else {
+    reach = reach_of_round(node, four);
+    if (query.steady_only) reach.reached &= bits_of(in_region(node, four));
+    look_closer(node, query, reach);
+  }
+  if (reach.reached != 0 && !rim_of_.empty()) leave_out_rims(index, query, reach);
   return reach;
 }
 
@@ -212,7 +240,7 @@ bool ContactHierarchy::push_from(std::uint32_t place, const ContactQuery& query,
     const Reach here = reach(index, query, four);
     push(index, here, stack, into);
     if (index == wanted) {
-      if (here.reached[last]) stack.entries[stack.size++] = {place, here.box2[last]};
+      if (here.reached >> last & 1u) stack.entries[stack.size++] = {place, here.box2[last]};
       return true;
     }
     index = node.link[into];

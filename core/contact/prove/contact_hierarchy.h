@@ -32,6 +32,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -141,6 +142,7 @@ class ContactHierarchy {
   friend class ContactHierarchyBuilder;
   static constexpr std::uint32_t kLeaf = 0x80000000u;
   static constexpr std::uint32_t kFour = 4;
+  static constexpr std::uint32_t kAllParts = (1u << kFour) - 1;
   static constexpr float kFloatRounding = 1e-6f;   ///< ratio, far above what floats are rounded by
   static constexpr float kSteadyRounding = 2e-5f;  ///< twice what a product with a curvature is, which is about 1
   static constexpr double kLargest = 1e10;         ///< m: floats are asked up to here ...
@@ -190,13 +192,15 @@ class ContactHierarchy {
     }
     double from_margin_m, from_nearest_m, from_inside_m;
     std::array<Four, 3> centre, ahead;
-    float margin_m, nearest2, inside2;  ///< inside2 below zero: none
-    float farthest2;                    ///< of the two
+    Four margin_m, nearest2, inside2;
+    float farthest2;         ///< of the two
+    bool has_inside;         ///< else inside2 is below zero
+    bool in_floats = false;  ///< floats hold the squares of its coordinates
+    bool is_plain = false;   ///< in floats, of a round finger, wherever the ground is
     /// What curvature times height has to be above, and below less that; of a core above, at the first height, for any
     /// normals, and at the second for some.
-    float least_steady, nearest_m, inside_m;
-    bool in_floats = false;                 ///< floats hold the squares of its coordinates
-    float room_m;                           ///< by which coordinates and distances along an axis may be wrong
+    Four least_steady, nearest_m, inside_m;
+    Four room_m;                            ///< by which coordinates and distances along an axis may be wrong
     float lever_m = 0.0f, behind_m = 0.0f;  ///< of a core: how far beside and behind the centre its contacts may be
     FourCore core;
     /// Of parts that are asked for here, and of others: FourParts.
@@ -205,11 +209,17 @@ class ContactHierarchy {
   };
   /// What reach_of_core has found of a part: whether its ground is steady. Then what it asks is not asked again.
   enum class Ground : std::uint8_t { unknown, steady, unsteady };
-  /// Of four parts: the boxes' squared distances, and whether they can hold a contact, -1 where they can, else 0.
+  /// Of four parts: the boxes' squared distances, and whether they can hold a contact.
   struct Reach {
     Four box2;
-    FourMask reached;
-    FourMask steady, unsteady;  ///< of a core: what is certain of the ground
+    std::uint32_t reached;  ///< bit i: part i can
+
+    void leave_out(std::uint32_t lane) { reached &= ~(1u << lane); }
+  };
+  /// Of a finger with a core, also what is certain of the ground, -1 where it is.
+  struct CoreReach {
+    Reach reach;
+    FourMask steady, unsteady;
 
     Ground ground(std::uint32_t lane) const {
       return steady[lane] ? Ground::steady : unsteady[lane] ? Ground::unsteady : Ground::unknown;
@@ -223,21 +233,22 @@ class ContactHierarchy {
   }
   static Reach reach_of_round(const Node& node, const FourQuery& query);
   /// Of a finger that is not round.
-  static Reach reach_of_core(const Node& node, const FourQuery& query);
+  static CoreReach reach_of_core(const Node& node, const FourQuery& query);
   static FourMask in_region(const Node& node, const FourQuery& query);
   static Four box_distance2(const Node& node, const FourQuery& query);
-  /// Of any query, of one part after the other.
-  Reach reach_of_any(std::uint32_t index, const ContactQuery& query) const;
   Reach reach(std::uint32_t index, const ContactQuery& query, const FourQuery& four) const {
-    if (!in_floats_ || !four.in_floats || (query.tilt_rad > 0.0 && !query.core)) return reach_of_any(index, query);
-    Reach reach = query.core ? reach_of_core(nodes_[index], four) : reach_of_round(nodes_[index], four);
-    if (query.steady_only) reach.reached &= in_region(nodes_[index], four);
-    if (query.core || query.steady_only) look_closer(nodes_[index], query, reach);
-    if (!rim_of_.empty()) leave_out_rims(index, query, reach);
+    if (!in_floats_ || !four.is_plain) return reach_of_any(index, query, four);
+    Reach reach = reach_of_round(nodes_[index], four);
+    if (reach.reached != 0 && !rim_of_.empty()) leave_out_rims(index, query, reach);
     return reach;
   }
+  /// Of any query.
+  Reach reach_of_any(std::uint32_t index, const ContactQuery& query, const FourQuery& four) const;
+  /// One part after the other.
+  Reach reach_one_by_one(const Node& node, const ContactQuery& query) const;
   /// The parts that are reached so far, one by one: leaves, and what is not known of others.
   static void look_closer(const Node& node, const ContactQuery& query, Reach& reach);
+  static void look_closer(const Node& node, const ContactQuery& query, CoreReach& reach);
   void leave_out_rims(std::uint32_t index, const ContactQuery& query, Reach& reach) const;
   /// Whether a part can hold a contact. `is_inner`: it is about several triangles, or that is not known.
   static bool can_hold(const Bounds& node, bool is_inner, const ContactQuery& query);
@@ -293,12 +304,11 @@ class ContactHierarchy::Outline {
 inline ContactHierarchy::Outline ContactHierarchy::outline() const { return Outline(all_); }
 
 inline Four ContactHierarchy::box_distance2(const Node& node, const FourQuery& q) {
-  Four box2{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Four gap = max(max(node.min[k] - q.centre[k], q.centre[k] - node.max[k]) - q.room_m, Four{});
-    box2 += gap * gap;
-  }
-  return (1.0f - kFloatRounding) * box2;
+  const auto gap = [&](std::size_t k) {
+    return max(max(node.min[k] - q.centre[k], q.centre[k] - node.max[k]) - q.room_m, Four{});
+  };
+  const Four x = gap(0), y = gap(1), z = gap(2);
+  return (1.0f - kFloatRounding) * (x * x + y * y + z * z);
 }
 
 // Seen from c the points lie in a ball about the box's middle, in a cone as wide as the sine radius/|d| tells; c may
@@ -307,37 +317,49 @@ inline Four ContactHierarchy::box_distance2(const Node& node, const FourQuery& q
 inline ContactHierarchy::Reach ContactHierarchy::reach_of_round(const Node& node, const FourQuery& q) {
   constexpr float kRounding = kFloatRounding, kSquared = 4.0f * kRounding;
   const Four zero{};
-  const FourMask steady =
-      (q.nearest_m * node.least_curvature > q.least_steady) & (q.inside_m * node.greatest_curvature < -q.least_steady);
+  const FourMask moves = ~((q.nearest_m * node.least_curvature > q.least_steady) &
+                           (q.inside_m * node.greatest_curvature < -q.least_steady));  // not steady
+  const auto if_moves = [&](const Four& x) { return reinterpret_cast<Four>(reinterpret_cast<FourMask>(x) & moves); };
   const Four box2 = box_distance2(node, q);
-  Four d2 = zero, along = zero;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Four d = q.centre[k] - 0.5f * (node.min[k] + node.max[k]) + (steady ? zero : q.ahead[k]);
-    d2 += d * d;
-    along += d * node.axis[k];
-  }
-  const Four radius = (1.0f + kRounding) * (node.radius_m + (steady ? zero : zero + q.margin_m)) + 2.0f * q.room_m;
-  const Four radius2 = radius * radius, cos2 = node.cos_half * node.cos_half;
-  const Four sight2 = (1.0f - kRounding) * d2 - radius2, most_sight2 = d2 - (1.0f - 3.0f * kSquared) * radius2;
-  const Four room = node.sin_half * radius + (q.room_m + kRounding * radius);
-  const Four least2 = (1.0f - kSquared) * cos2 * sight2, most2 = (1.0f + kSquared) * cos2 * most_sight2;
-  const FourMask is_narrow = node.cos_half >= zero;
-  const auto faces = [&](const Four& x) {
-    const Four y = x + room, y2 = y * y;
-    const FourMask is_over = y >= zero;
-    return (is_narrow & is_over & (y2 >= least2)) | (~is_narrow & (is_over | (y2 <= most2)));
+  const auto way = [&](std::size_t k) {
+    return q.centre[k] - 0.5f * (node.min[k] + node.max[k]) + if_moves(q.ahead[k]);
   };
-  // A cone of every normal, a finger in the ball, over half a turn.
-  const Four sin2 = (1.0f - kSquared) * node.sin_half * node.sin_half;
-  const FourMask any = (node.cos_half <= -1.0f) | (sight2 <= zero) | (~is_narrow & (sin2 * sight2 < cos2 * radius2));
-  const FourMask outside = box2 <= q.nearest2, inside = box2 <= q.inside2;
-  return {box2, (outside & (any | faces(along))) | (inside & (any | faces(-along))), FourMask{}, FourMask{}};
+  const Four x = way(0), y = way(1), z = way(2);
+  const Four d2 = x * x + y * y + z * z, along = x * node.axis[0] + y * node.axis[1] + z * node.axis[2];
+  const Four radius = (1.0f + kRounding) * (node.radius_m + if_moves(q.margin_m)) + 2.0f * q.room_m;
+  const Four radius2 = radius * radius, cos2 = node.cos_half * node.cos_half;
+  const Four sight2 = (1.0f - kRounding) * d2 - radius2;
+  const Four room = node.sin_half * radius + (q.room_m + kRounding * radius);
+  const Four least2 = (1.0f - kSquared) * cos2 * sight2;
+  const FourMask is_narrow = node.cos_half >= zero;
+  // A cone of every normal, a finger in the ball.
+  FourMask any = (node.cos_half <= -1.0f) | (sight2 <= zero);
+  const auto faces_narrow = [&](const Four& a) {
+    const Four b = a + room;
+    return (b >= zero) & (b * b >= least2);
+  };
+  FourMask reached = any | (is_narrow & faces_narrow(along)), reached_inside{};
+  if (q.has_inside) reached_inside = any | (is_narrow & faces_narrow(-along));
+  if (bits_of(is_narrow) != kAllParts) {  // near the root, mostly
+    const Four most_sight2 = d2 - (1.0f - 3.0f * kSquared) * radius2, most2 = (1.0f + kSquared) * cos2 * most_sight2;
+    const Four sin2 = (1.0f - kSquared) * node.sin_half * node.sin_half;
+    const auto faces_wide = [&](const Four& a) {
+      const Four b = a + room;
+      return ~is_narrow & ((b >= zero) | (b * b <= most2));
+    };
+    any |= ~is_narrow & (sin2 * sight2 < cos2 * radius2);  // over half a turn
+    reached |= any | faces_wide(along);
+    if (q.has_inside) reached_inside |= any | faces_wide(-along);
+  }
+  reached &= box2 <= q.nearest2;
+  if (q.has_inside) reached |= reached_inside & (box2 <= q.inside2);
+  return {box2, bits_of(reached)};
 }
 
 inline void ContactHierarchy::push(std::uint32_t index, const Reach& reach, Stack& stack, std::uint32_t after) {
   const int first = stack.size;
-  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-    if (!reach.reached[lane]) continue;
+  for (std::uint32_t left = reach.reached; left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::uint32_t>(std::countr_zero(left));
     const float box2 = reach.box2[lane];
     if (after != kNone && (lane > after ? box2 < reach.box2[after] : box2 <= reach.box2[after])) continue;
     int at = stack.size++;

@@ -1,7 +1,7 @@
 #include "core/contact/prove/contact_hierarchy.h"
 
+#include "core/base/float_bounds.h"
 #include "core/contact/prove/feature_nets.h"
-#include "core/contact/prove/float_bounds.h"
 #include "core/contact/prove/normal_set.h"
 #include "core/mesh/vertex_ring.h"
 #include "core/surface/mesh_patch.h"

@@ -37,27 +37,6 @@ struct CornerMisses {
     least_ = std::max(0.0, std::min({glm::dot(miss[0], along), glm::dot(miss[1], along), glm::dot(miss[2], along)}));
   }
 
-  /// Looks along the direction of the nearest of what lies between two corners' misses, which is where the least along
-  /// any direction is most. False: it is no more than `least_m`.
-  bool look_at_nearest(double least_m) {
-    Vec3 nearest(0.0);
-    double nearest2 = std::numeric_limits<double>::max();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 &from = miss[k], side = miss[(k + 1) % 3] - from;
-      const double length2 = glm::dot(side, side);
-      const double share = length2 > 0.0 ? std::clamp(-glm::dot(from, side) / length2, 0.0, 1.0) : 0.0;
-      const Vec3 there = from + share * side;
-      const double there2 = glm::dot(there, there);
-      if (there2 < nearest2) {
-        nearest = there;
-        nearest2 = there2;
-      }
-    }
-    if (!(nearest2 > least_m * least_m)) return false;
-    look_along(nearest / std::sqrt(nearest2));
-    return least_ > least_m;
-  }
-
   /// The least of the corners' along it; 0 if they are on both sides.
   double least() const { return least_; }
   /// How far the misses of the whole patch stay clear of zero along it, for a point that goes linearly from corner to

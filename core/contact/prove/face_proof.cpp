@@ -198,11 +198,4 @@ double corner_exclusion(PatchCache& cache, std::uint32_t t, NormalForm form, con
   return certain_margin(misses.clear(cache.outline(t, form)), rounding_of_margin(centre, misses.p[0]));
 }
 
-bool corners_exclude(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre, double enough_m) {
-  CornerMisses misses = misses_of(cache.mesh(), t, centre);
-  const double wanted = enough_m + rounding_of_margin(centre, misses.p[0]);
-  if (misses.least() > wanted && misses.clear(cache.outline(t, form)) >= wanted) return true;
-  return misses.look_at_nearest(wanted) && misses.clear(cache.outline(t, form)) >= wanted;
-}
-
 }  // namespace tangent

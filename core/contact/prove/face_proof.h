@@ -76,8 +76,4 @@ PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double 
 /// a contact on it, as far as the direction of the middle of the corners' misses (c - P) x N tells. 0: look closer.
 double corner_exclusion(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre);
 
-/// Whether the corners tell that no centre nearer than `enough_m` has a contact on the face, along that direction or to
-/// the nearest of what lies between their misses.
-bool corners_exclude(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre, double enough_m);
-
 }  // namespace tangent

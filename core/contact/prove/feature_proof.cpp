@@ -14,15 +14,13 @@ namespace {
 constexpr int kEdgeHalvings = 3;                   // more: dearer; fewer: solves in vain
 constexpr int kTestsOfEdge = 4, kFacesOfTest = 2;  // what a close look at an edge costs, and at the faces of a vertex
 
-/// An edge of a triangle by its curve's control points, local coordinates.
+/// An edge of a triangle, local coordinates.
 struct EdgeEnds {
-  Vec3 p, q;                  ///< corners
-  Vec3 np, nq;                ///< corner normals of the triangle
-  Vec3 inside;                ///< the opposite corner
-  Vec3 middle_normal;         ///< of the normals along the edge, np and nq the others
-  std::array<Vec3, 4> curve;  ///< control points
+  std::array<Vec3, 4> curve;    ///< control points
+  std::array<Vec3, 3> normals;  ///< of the triangle along it, control normals: the corners' at the ends
+  Vec3 inside;                  ///< the opposite corner
 
-  /// Those of its derivative.
+  /// Control points of the curve's derivative.
   std::array<Vec3, 3> speed() const {
     return {3.0 * (curve[1] - curve[0]), 3.0 * (curve[2] - curve[1]), 3.0 * (curve[3] - curve[2])};
   }
@@ -36,21 +34,14 @@ std::array<Vec3, 4> edge_curve(const ContactMesh& mesh, const PnPatch& patch, st
 
 EdgeEnds edge_ends(const ContactMesh& mesh, const PnPatch& patch, std::uint32_t t, std::uint32_t edge) {
   static constexpr ControlNormal kMiddle[3] = {n110, n011, n101};
-  EdgeEnds e;
-  const std::uint32_t j = (edge + 1) % 3;
-  e.p = mesh.position(t, edge);
-  e.q = mesh.position(t, j);
-  e.np = mesh.normal(t, edge);
-  e.nq = mesh.normal(t, j);
-  e.middle_normal = 0.5 * patch.mixed_weight * patch.normals[kMiddle[edge]];
-  e.inside = mesh.position(t, (edge + 2) % 3);
-  e.curve = edge_curve(mesh, patch, t, edge);
-  return e;
+  return {
+      edge_curve(mesh, patch, t, edge),
+      {mesh.normal(t, edge), 0.5 * patch.mixed_weight * patch.normals[kMiddle[edge]], mesh.normal(t, (edge + 1) % 3)},
+      mesh.position(t, (edge + 2) % 3)};
 }
 
 /// Greatest |N.S'| along the edge, of unit normals: how much they lean along it.
-double lean_along(const EdgeEnds& e, const std::array<Vec3, 3>& speed) {
-  const std::array<Vec3, 3> n{e.np, e.middle_normal, e.nq};
+double lean_along(const std::array<Vec3, 3>& n, const std::array<Vec3, 3>& speed) {
   const double most = greatest_product(n, speed);
   double shortest = 1.0;
   const Vec3 axis = unit(n[0] + n[2]);
@@ -59,24 +50,27 @@ double lean_along(const EdgeEnds& e, const std::array<Vec3, 3>& speed) {
 }
 
 /// How far c lies beyond an end of the edge, seen along the curve from every place of it: (c - S).S' is a quintic whose
-/// Bezier coefficients have one sign then. On a contact it is h N.S', which is no more than the normals lean.
-double beyond_ends(const EdgeEnds& e, const Vec3& centre) {
-  const std::array<Vec3, 3> speed = e.speed();
-  const std::array<Vec3, 4> d{centre - e.curve[0], centre - e.curve[1], centre - e.curve[2], centre - e.curve[3]};
+/// Bezier coefficients have one sign then. On a contact it is h N.S', which is no more than the normals lean. Not over
+/// 0: nothing is known; most of these are told by the coefficients of the ends.
+double beyond_ends(const EdgeEnds& e, const std::array<Vec3, 3>& speed, const Vec3& centre) {
+  const Vec3 first = centre - e.curve[0], last = centre - e.curve[3];
+  const double start = glm::dot(first, speed[0]), end = glm::dot(last, speed[2]);
+  if (!(start * end > 0.0)) return 0.0;
+  const std::array<Vec3, 4> d{first, centre - e.curve[1], centre - e.curve[2], last};
   const auto at = [&](std::size_t i, std::size_t j) { return glm::dot(d[i], speed[j]); };
-  const std::array<double, 6> g{at(0, 0),
+  const std::array<double, 6> g{start,
                                 (3.0 * at(1, 0) + 2.0 * at(0, 1)) / 5.0,
                                 (3.0 * at(2, 0) + 6.0 * at(1, 1) + at(0, 2)) / 10.0,
                                 (at(3, 0) + 6.0 * at(2, 1) + 3.0 * at(1, 2)) / 10.0,
                                 (2.0 * at(3, 1) + 3.0 * at(2, 2)) / 5.0,
-                                at(3, 2)};
+                                end};
   const auto [low, high] = std::minmax_element(g.begin(), g.end());
   const double clear = std::max(*low, -*high);
-  if (clear <= 0.0) return clear;
+  if (clear <= 0.0) return 0.0;
   double farthest2 = 0.0, fastest2 = 0.0;
   for (const Vec3& x : d) farthest2 = std::max(farthest2, glm::dot(x, x));
   for (const Vec3& x : speed) fastest2 = std::max(fastest2, glm::dot(x, x));
-  const double lean = lean_along(e, speed);
+  const double lean = lean_along(e.normals, speed);
   return (clear - lean * std::sqrt(farthest2)) / (std::sqrt(fastest2) + lean);
 }
 
@@ -105,26 +99,31 @@ double edge_distance(const ContactMesh& mesh, std::uint32_t t, std::uint32_t edg
 
 /// How far c lies over the triangle rather than over the edge's fan, seen from every place of the edge: with T = S' and
 /// n the triangle's normal there (c - S).(T x n) has the sign of the triangle's side, a polynomial of degree 7 whose
-/// Bezier coefficients have it then. On a contact of a convex fan it has the other one, or is 0.
-double over_face(const EdgeEnds& e, const Vec3& centre) {
+/// Bezier coefficients have it then. On a contact of a convex fan it has the other one, or is 0. Not over 0: nothing is
+/// known, as above.
+double over_face(const EdgeEnds& e, const std::array<Vec3, 3>& t, const Vec3& centre) {
   constexpr double kFour[5] = {1.0, 4.0, 6.0, 4.0, 1.0}, kThree[4] = {1.0, 3.0, 3.0, 1.0};
   constexpr double kSeven[8] = {1.0, 7.0, 21.0, 35.0, 35.0, 21.0, 7.0, 1.0};
-  const std::array<Vec3, 3> t = e.speed();
+  const auto& n = e.normals;
+  const Vec3 first = glm::cross(t[0], n[0]), last = glm::cross(t[2], n[2]);
+  const double inside = glm::dot(first, e.inside - e.curve[0]);
+  if (!(inside * glm::dot(last, e.inside - e.curve[3]) > 0.0)) return 0.0;
+  const std::array<Vec3, 4> d{centre - e.curve[0], centre - e.curve[1], centre - e.curve[2], centre - e.curve[3]};
+  const double side = inside > 0.0 ? 1.0 : -1.0, start = side * glm::dot(first, d[0]),
+               end = side * glm::dot(last, d[3]);
+  if (!(start > 0.0 && end > 0.0)) return 0.0;
   const std::array<Vec3, 5> across{
-      glm::cross(t[0], e.np), 0.5 * (glm::cross(t[0], e.middle_normal) + glm::cross(t[1], e.np)),
-      (glm::cross(t[0], e.nq) + 4.0 * glm::cross(t[1], e.middle_normal) + glm::cross(t[2], e.np)) / 6.0,
-      0.5 * (glm::cross(t[1], e.nq) + glm::cross(t[2], e.middle_normal)), glm::cross(t[2], e.nq)};
-  const double inside = glm::dot(across[0], e.inside - e.p);
-  if (!(inside * glm::dot(across[4], e.inside - e.q) > 0.0)) return 0.0;
+      first, 0.5 * (glm::cross(t[0], n[1]) + glm::cross(t[1], n[0])),
+      (glm::cross(t[0], n[2]) + 4.0 * glm::cross(t[1], n[1]) + glm::cross(t[2], n[0])) / 6.0,
+      0.5 * (glm::cross(t[1], n[2]) + glm::cross(t[2], n[1])), last};
   std::array<double, 8> g{};
   double most2 = 0.0;
   for (std::size_t i = 0; i < across.size(); ++i) {
     most2 = std::max(most2, glm::dot(across[i], across[i]));
-    for (std::size_t j = 0; j < e.curve.size(); ++j)
-      g[i + j] += kFour[i] * kThree[j] * glm::dot(across[i], centre - e.curve[j]);
+    for (std::size_t j = 0; j < d.size(); ++j) g[i + j] += kFour[i] * kThree[j] * glm::dot(across[i], d[j]);
   }
-  double least = std::numeric_limits<double>::max();
-  for (std::size_t k = 0; k < g.size(); ++k) least = std::min(least, (inside > 0.0 ? g[k] : -g[k]) / kSeven[k]);
+  double least = std::min(start, end);
+  for (std::size_t k = 1; k + 1 < g.size(); ++k) least = std::min(least, side * g[k] / kSeven[k]);
   return least / std::sqrt(most2);
 }
 
@@ -178,15 +177,15 @@ struct EdgeSides {
   bool has_far = false;
 };
 
-/// The near half of an edge's ends, whose new end is its place on the curve, and the other one.
+/// The halves of an edge's ends, whose new end is its place on the curve.
 std::array<EdgeEnds, 2> halves_of(const EdgeEnds& e) {
   const auto& b = e.curve;
   const Vec3 ab = 0.5 * (b[0] + b[1]), bc = 0.5 * (b[1] + b[2]), cd = 0.5 * (b[2] + b[3]);
   const Vec3 abc = 0.5 * (ab + bc), bcd = 0.5 * (bc + cd), middle = 0.5 * (abc + bcd);
-  const Vec3 first = 0.5 * (e.np + e.middle_normal), second = 0.5 * (e.middle_normal + e.nq);
+  const Vec3 first = 0.5 * (e.normals[0] + e.normals[1]), second = 0.5 * (e.normals[1] + e.normals[2]);
   const Vec3 normal = 0.5 * (first + second);
-  return {EdgeEnds{b[0], middle, e.np, normal, e.inside, first, {b[0], ab, abc, middle}},
-          EdgeEnds{middle, b[3], normal, e.nq, e.inside, second, {middle, bcd, cd, b[3]}}};
+  return {EdgeEnds{{b[0], ab, abc, middle}, {e.normals[0], first, normal}, e.inside},
+          EdgeEnds{{middle, bcd, cd, b[3]}, {normal, second, e.normals[2]}, e.inside}};
 }
 std::array<EdgeSides, 2> halves_of(const EdgeSides& edge) {
   const std::array<EdgeEnds, 2> near = halves_of(edge.near);
@@ -202,9 +201,10 @@ double parts_margin(const Question& q, const EdgeSides& edge, double wanted, int
   for (const EdgeSides& part : halves_of(edge)) {
     ++result.tests;
     const double behind = q.bound.way_to(curve_distance(part.near.curve, q.centre));
-    double safe = std::max(behind, beyond_ends(part.near, q.centre));
-    if (safe < wanted) safe = std::max(safe, over_face(part.near, q.centre));
-    if (safe < wanted && part.has_far) safe = std::max(safe, over_face(part.far, q.centre));
+    const auto speed = part.near.speed();
+    double safe = std::max(behind, beyond_ends(part.near, speed, q.centre));
+    if (safe < wanted) safe = std::max(safe, over_face(part.near, speed, q.centre));
+    if (safe < wanted && part.has_far) safe = std::max(safe, over_face(part.far, part.far.speed(), q.centre));
     result.by_rank = result.by_rank || behind >= safe;
     if (safe < wanted && halvings > 1) safe = parts_margin(q, part, wanted, halvings - 1, result);
     least = std::min(least, safe);
@@ -224,14 +224,15 @@ FeatureExclusion edge_margin(const Question& q, std::uint32_t k) {
   if (safe > q.rounding_m && safe >= share * wanted) return {safe - q.rounding_m, true, kTestsOfEdge};
   const double behind = safe;
   EdgeSides edge{edge_ends(q.mesh, patch, q.t, k), {}, false};
-  safe = std::max(safe, beyond_ends(edge.near, q.centre));
-  if (safe < wanted) safe = std::max(safe, over_face(edge.near, q.centre));
+  const auto speed = edge.near.speed();
+  safe = std::max(safe, beyond_ends(edge.near, speed, q.centre));
+  if (safe < wanted) safe = std::max(safe, over_face(edge.near, speed, q.centre));
   const EdgeLink other = q.mesh.across(q.t, k);
   if (safe < wanted && other.triangle != kNone) {
     const PnPatch& beside = q.cache.patch(other.triangle, q.form);
     edge.far = edge_ends(q.mesh, beside, other.triangle, other.edge);
     edge.has_far = true;
-    safe = std::max(safe, over_face(edge.far, q.centre));
+    safe = std::max(safe, over_face(edge.far, edge.far.speed(), q.centre));
   }
   FeatureExclusion result{certain_margin(safe, q.rounding_m), behind >= safe, kTestsOfEdge};
   if (q.glance || result.margin_m > 0.0) return result;

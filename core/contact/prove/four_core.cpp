@@ -1,27 +1,15 @@
 #include "core/contact/prove/four_core.h"
 
-#include "core/contact/prove/float_bounds.h"
+#include "core/base/float_bounds.h"
 
 #include <cmath>
-#ifdef __SSE__
-#include <xmmintrin.h>  // here alone: lanes.h is installed, and this would be with it
-#endif
 
 namespace tangent {
 namespace {
 
 constexpr float kRatio = 1e-5f;  // far above what a dozen operations in float are rounded by
 
-Four dot(const std::array<Four, 3>& a, const std::array<Four, 3>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Four sqrt(const Four& x) {
-#ifdef __SSE__
-  return _mm_sqrt_ps(x);
-#else
-  return {std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3])};
-#endif
-}
 Four positive(const Four& x) { return max(x, Four{}); }
-Four least(const Four& a, const Four& b) { return a < b ? a : b; }
 Four absolute(const Four& x) { return max(x, -x); }
 
 }  // namespace
@@ -49,8 +37,8 @@ FourCore::FourCore(const FingerCore& core)
 // As FingerCore::largest_radius.
 Four FourCore::largest_radius(const Four& least_length) const {
   const Four per = 1.0f / least_length, turned = pair_ * per;
-  const Four radius = least(longest_ * longest_ * per, turned * turned * per);
-  return least_length > Four{} ? least(Four{} + flattest_, radius) : Four{} + flattest_;
+  const Four radius = min(longest_ * longest_ * per, turned * turned * per);
+  return least_length > Four{} ? min(Four{} + flattest_, radius) : Four{} + flattest_;
 }
 
 // As FingerCore::slide_m of the whole core.
@@ -60,7 +48,7 @@ Four FourCore::slide(const Four& least_length, const Four& way) const {
   const Four rate = turns_per_m_ > 0.0f && lever_ > 0.0f
                         ? max(Four{} + 1.0f, sqrt(lever_ * lever_ + across * across) / reach_)
                         : Four{} + 1.0f;
-  return least(rate * way, 2.0f * (way + longest_));
+  return min(rate * way, 2.0f * (way + longest_));
 }
 
 FourMask FourCore::misses(const FourParts& p, float least_cosine) const {
@@ -87,11 +75,11 @@ FourMask FourCore::misses(const FourParts& p, float least_cosine) const {
     const std::array<Four, 3> z{axes_[0] * y[0], axes_[1] * y[1], axes_[2] * y[2]};
     const Four longest2 = zero + longest_ * longest_;
     const Four across = sqrt(positive(dot(z, z) - length2 * length2) + kRatio * longest2 * length2);
-    const Four other2 = least(longest2, (1.0f + kRatio) * squares_sum_ - length2), turn = 0.5f * (length2 - other2);
+    const Four other2 = min(longest2, (1.0f + kRatio) * squares_sum_ - length2), turn = 0.5f * (length2 - other2);
     const Four twice = 2.0f * cosine * cosine - 1.0f, sine = 2.0f * cosine * p.sin_half;
     const Four turns = sqrt(turn * turn + across * across);
     const Four within = turn > (twice - kRatio) * turns ? turns : turn * twice + across * sine;
-    const Four most2 = least(longest2, (1.0f + kRatio) * (0.5f * (length2 + other2) + within));
+    const Four most2 = min(longest2, (1.0f + kRatio) * (0.5f * (length2 + other2) + within));
     missed |= (p.deep_m > zero) & (cosine > least_cosine) & ((1.0f + kRatio) * most2 < p.deep_m * p.deep_m);
   }
   // By its cone: is_missed_by_cone in finger_core.cpp.
@@ -100,7 +88,7 @@ FourMask FourCore::misses(const FourParts& p, float least_cosine) const {
   const Four away2 = dot(to_support, to_support), along = dot(p.away, p.axis) - length;
   const Four across = sqrt(positive(away2 - along * along - kRatio * away2));
   const Four chord = sqrt(positive(2.0f - 2.0f * cosine)), least_length = (1.0f - kRatio) * length - longest_ * chord;
-  const Four moves = least(zero + 2.0f * longest_, 1.12f * chord * largest_radius(least_length));
+  const Four moves = min(zero + 2.0f * longest_, 1.12f * chord * largest_radius(least_length));
   const Four clear =
       across * cosine - absolute(along) * p.sin_half - (1.0f + kRatio) * (moves + p.radius_m) - 8.0f * p.room_m;
   missed |= (cosine > least_cosine) & (length2 > zero) & (clear > (1.0f + kRatio) * slide(least_length, p.way_m));

@@ -5,6 +5,7 @@
 #include "core/contact/prove/core_corner_proof.h"
 #include "core/contact/prove/core_feature_proof.h"
 #include "core/contact/prove/core_proof.h"
+#include "core/contact/prove/corner_glance.h"
 #include "core/contact/prove/feature_proof.h"
 #include "core/finger/plane_contact.h"
 #include "core/mesh/vertex_ring.h"

@@ -2,6 +2,7 @@
 #include "core/contact/prove/face_proof.h"
 
 #include "core/contact/follow/step_rule.h"
+#include "core/contact/prove/corner_glance.h"
 #include "core/surface/mesh_patch.h"
 #include "tests/core/creased_meshes.h"
 #include "tests/core/scenes.h"
@@ -285,6 +286,38 @@ TEST_CASE("past the middle of a deep bowl, where every contact is a hill-top, no
   }
   CHECK(hill_tops > rounds(1000));
   CHECK(possible == 0);
+}
+
+TEST_CASE("a glance in floats tells no more of flat faces than there is beside them, whatever their size") {
+  Random random(131);
+  const NormalForm form = NormalForm::bernstein;
+  int too_much = 0, told = 0, all = 0;
+  for (int i = 0; i < rounds(100000); ++i) {
+    const double size = std::pow(10.0, random.in(-6.0, 5.0));
+    const std::array<Vec3, 3> p{random.in_cube(size), random.in_cube(size), random.in_cube(size)};
+    const Vec3 across = glm::cross(p[1] - p[0], p[2] - p[0]), side = p[1] - p[0];
+    if (!(glm::length(across) > 0.05 * size * size) || !(glm::length(side) > 0.1 * size)) continue;
+    const Vec3 n = glm::normalize(across), out = glm::normalize(glm::cross(side, n));
+    // Within a flat sheet, since beside rims and creases corners tell less.
+    PolygonMesh sheet = one_triangle(p, {n, n, n});
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      sheet.positions.push_back(p[k] + p[(k + 1) % 3] - p[(k + 2) % 3]);
+      sheet.normals.push_back(n);
+      sheet.add_face({(k + 1) % 3, k, 3 + k});
+      sheet.corner_normal.insert(sheet.corner_normal.end(), {(k + 1) % 3, k, 3 + k});
+    }
+    const ContactMesh mesh = *ContactMesh::build(sheet);
+    PatchCache cache(mesh);
+    const double beside = size * std::pow(10.0, random.in(-7.0, 0.0));
+    const Vec3 centre =
+        p[0] - mesh.origin() + random.in(0.0, 1.0) * side + beside * out + random.in(-2.0, 2.0) * size * n;
+    ++all;
+    too_much += corners_exclude(cache, 0, form, centre, beside * (1.0 + std::pow(10.0, random.in(-10.0, -2.0))));
+    told += corners_exclude(cache, 0, form, centre, 0.99 * beside);
+  }
+  MESSAGE(too_much << " of " << all << " told too much, " << told << " told");
+  CHECK(too_much == 0);
+  CHECK(told > all / 4);
 }
 
 TEST_CASE("the corners of a face exclude no contact that comes up within what was asked for, beside creases, too") {
