@@ -18,7 +18,7 @@ static FourVec3 lanes_of(const std::array<Vec3, 3>& v) {
 
 FaceOutline face_outline(const ContactMesh& mesh, std::uint32_t t, NormalForm form) {
   const std::array<Vec3, 3> p = mesh.positions(t), n = mesh.normals(t);
-  FaceOutline outline;
+  FaceOutline outline{};
   outline.origin = p[0];
   outline.has_middles = true;
   for (std::uint32_t k = 0; k < 3; ++k) {

@@ -28,12 +28,6 @@ struct PatchKey {
   bool operator==(const PatchKey&) const = default;
 };
 
-/// What a first look at a face asked of it.
-struct CachedOutline {
-  PatchKey key;
-  FaceOutline outline;
-};
-
 /// How its patch bends: asked for oftener than what else is known of it.
 struct CachedBend {
   PatchKey key;
@@ -78,7 +72,8 @@ class PatchCache {
       : mesh_(&mesh),
         held_(kPatches),
         patches_(std::make_unique_for_overwrite<CachedPatch[]>(kPatches)),
-        outlines_(kOutlines),
+        outlined_(kOutlines),
+        outlines_(std::make_unique_for_overwrite<FaceOutline[]>(kOutlines)),
         bends_(kBends),
         is_large_(mesh.triangle_count() > kLarge) {}
 
@@ -105,9 +100,12 @@ class PatchCache {
   PatchFront& front(std::uint32_t t, NormalForm form) { return patch_slot(t, form).front; }
   /// Good until the next call for another triangle.
   const FaceOutline& outline(std::uint32_t t, NormalForm form) {
-    CachedOutline& slot = outlines_[t % kOutlines];
-    if (slot.key != PatchKey{t, form}) slot = {{t, form}, face_outline(*mesh_, t, form)};
-    return slot.outline;
+    const std::uint32_t slot = t % kOutlines;
+    if (outlined_[slot] != PatchKey{t, form}) {
+      outlined_[slot] = {t, form};
+      outlines_[slot] = face_outline(*mesh_, t, form);
+    }
+    return outlines_[slot];
   }
   /// Says that the contact is on triangle `t`, once at a tick's beginning and once at its end: on a large mesh the
   /// triangles beside it and those beside them, which it goes to next, come from the processor's slow memory, so they
@@ -155,7 +153,7 @@ class PatchCache {
  private:
   /// Direct-mapped. A contact revisits the few triangles around it, a search those of the last one: on rough ground
   /// hundreds.
-  static constexpr std::uint32_t kPatches = 512, kOutlines = 512, kBends = 1024, kSlots = 16;
+  static constexpr std::uint32_t kPatches = 512, kOutlines = 1024, kBends = 1024, kSlots = 16;
   CachedPatch& patch_slot(std::uint32_t t, NormalForm form) {
     const std::uint32_t slot = t % kPatches;
     if (held_[slot] != PatchKey{t, form}) fill(slot, t, form);
@@ -173,7 +171,8 @@ class PatchCache {
   const ContactMesh* mesh_;
   std::vector<PatchKey> held_;
   std::unique_ptr<CachedPatch[]> patches_;  ///< as held_ says
-  std::vector<CachedOutline> outlines_;
+  std::vector<PatchKey> outlined_;
+  std::unique_ptr<FaceOutline[]> outlines_;  ///< as outlined_ says
   std::vector<CachedBend> bends_;
   std::array<CachedFan, kSlots> fans_;
   VertexSurroundings vertex_;
