@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cerrno>
 #include <csignal>
 #include <ostream>
 #include <string>
@@ -53,6 +54,16 @@ class Process {
     ::_exit(127);
   }
 
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+  /// A test that fails before it has waited leaves nothing running.
+  ~Process() {
+    if (waited_) return;
+    ::kill(id_, SIGKILL);
+    int status = 0;
+    while (::waitpid(id_, &status, 0) < 0 && errno == EINTR) {}
+  }
+
   void interrupt(int signal = SIGINT) const { ::kill(id_, signal); }
 
   bool ended() const {
@@ -64,6 +75,7 @@ class Process {
     int status = 0;
     struct rusage usage {};
     while (::wait4(id_, &status, 0, &usage) < 0 && errno == EINTR) {}
+    waited_ = true;
     const std::string err = read_text(folder_.file("err"));
     // A sanitizer's report fails the test even where the program is expected to fail.
     CHECK_MESSAGE(!contains(err, "Sanitizer"), err);
@@ -78,6 +90,7 @@ class Process {
 
   TempFolder folder_;
   pid_t id_ = 0;
+  mutable bool waited_ = false;
 };
 
 inline ProcessResult run_workbench(std::vector<std::string> arguments) { return Process(std::move(arguments)).wait(); }

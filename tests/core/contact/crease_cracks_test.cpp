@@ -116,11 +116,12 @@ TEST_CASE("smooth edges of an icosphere and a torus do not crack either, and the
   }
 }
 
-TEST_CASE("creases and smooth edges of the fandisk do not crack") {
+TEST_CASE("creases and smooth edges of the fandisk do not crack" * doctest::skip(testing::kSanitized)) {
   if (!testing::shared_files_there({"meshes/fandisk.obj"})) return;
   const auto scene = file_scene(testing::shared_file("meshes/fandisk.obj"), 45.0);
-  CHECK(widest_crack(scene->mesh(), EdgeKind::crease, false).edges > 100);
-  CHECK(widest_crack(scene->mesh(), EdgeKind::crease, false).widest <= 1e-15);
+  const auto creases = widest_crack(scene->mesh(), EdgeKind::crease, false);
+  CHECK(creases.edges > 100);
+  CHECK(creases.widest <= 1e-15);
   CHECK(widest_crack(scene->mesh(), EdgeKind::smooth, false).widest <= 1e-15);
 }
 

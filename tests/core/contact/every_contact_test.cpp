@@ -131,7 +131,8 @@ std::vector<FoundContact> every_contact(const ContactMesh& mesh, const CapsuleBy
 
 }  // namespace
 
-TEST_CASE("where a capsule touches a torus: each contact by brute force, which are stable, and what a tick shows") {
+TEST_CASE("where a capsule touches a torus: each contact by brute force, which are stable, and what a tick shows" *
+          doctest::skip(testing::kSanitized)) {
   const auto torus = generate_mesh("torus", {});
   REQUIRE(torus);
   const ScenePtr scene = scene_of(*torus);

@@ -96,7 +96,7 @@ TEST_CASE("the sweep finds a crossing where comparing every pair of segments doe
 TEST_CASE("200,000 teeth as wide as the polygon are checked in any direction, and a crossing in them is found") {
   // A sweep that compares all the segments it meets would make 10^11 comparisons: minutes.
   for (const Vec2 way : {Vec2(1.0, 0.0), Vec2(0.0, 1.0), Vec2(0.8, 0.6), Vec2(-0.6, 0.8)}) {
-    std::vector<Vec2> v = comb(200000, way);
+    std::vector<Vec2> v = comb(rounds(200000), way);
     CHECK_FALSE(find_crossing(segments_through(v, false), false).has_value());
     v.push_back(0.5 * (v[1000] + v[1001]));
     CHECK(find_crossing(segments_through(v, false), false).has_value());

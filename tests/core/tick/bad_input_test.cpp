@@ -172,7 +172,7 @@ TEST_CASE(
     "icosphere") {
   const ContactMesh& mesh = icosphere()->mesh();
   std::vector<Vec3> poses{Vec3(0.0), {1e-12, 0.0, 0.0}};
-  for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+  for (std::uint32_t t = 0; t < mesh.triangle_count(); t += testing::kSanitized ? 7 : 1) {
     const auto p = mesh.positions(t);
     for (const Vec3& on : {p[0], 0.5 * (p[0] + p[1]), 0.25 * p[0] + 0.75 * p[2], (p[0] + p[1] + p[2]) / 3.0})
       for (const double off : {0.0, 1e-12, -1e-12, 1e-6}) poses.push_back(on + off * unit(on));

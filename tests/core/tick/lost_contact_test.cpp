@@ -46,9 +46,11 @@ TEST_CASE("pressed into spikes an ellipsoid or a capsule is seldom let go") {
   ellipsoid.semi_axes_m = {0.020, 0.010, 0.008};
   for (const Finger& finger : {ellipsoid, capsule}) {
     CAPTURE(static_cast<int>(finger.shape));
-    constexpr int ticks = 1000, kinds = 10;
+    constexpr int ticks = 1000;
+    const int kinds = rounds(10);
     Pressed all;
-    for (std::uint64_t seed = 3; seed < 3 + kinds; ++seed) {
+    for (int kind = 0; kind < kinds; ++kind) {
+      const std::uint64_t seed = 3u + static_cast<std::uint64_t>(kind);
       const Pressed pressed = press(Spikes(3e-3, seed), finger, ticks);
       all.touching += pressed.touching;
       all.free += pressed.free;

@@ -2,6 +2,7 @@
 #include "core/io/preset_file.h"
 #include "tests/support/paths.h"
 #include "tests/support/process.h"
+#include "tests/support/sanitized.h"
 
 #include <doctest/doctest.h>
 
@@ -100,7 +101,7 @@ TEST_CASE("check refuses wrong usage, and attaches all or nothing") {
   CHECK(run_workbench({"check", f.preset, "--attach", "--mesh", "make torus", "--path", "zigzag"}).exit_code == 2);
 }
 
-TEST_CASE("every preset that ships holds") {
+TEST_CASE("every preset that ships holds" * doctest::skip(testing::kSanitized)) {
   std::vector<std::string> arguments{"check"};
   for (const auto& entry : std::filesystem::directory_iterator(testing::source_folder() + "/presets")) {
     if (entry.path().extension() == ".toml") arguments.push_back(entry.path().string());

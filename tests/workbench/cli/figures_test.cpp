@@ -2,6 +2,7 @@
 #include "workbench/cli/figures.h"
 #include "tests/support/approx.h"
 #include "tests/support/process.h"
+#include "tests/support/sanitized.h"
 #include "workbench/session/figure_table.h"
 
 #include <doctest/doctest.h>
@@ -107,7 +108,8 @@ TEST_CASE("figures says where it can't write") {
   CHECK(contains(result.err, "this folder can't be made"));
 }
 
-TEST_CASE("a folder's name is data: no newline, quote or control character in it makes gnuplot do anything") {
+TEST_CASE("a folder's name is data: no newline, quote or control character in it makes gnuplot do anything" *
+          doctest::skip(testing::kSanitized)) {
   const TempFolder folder;
   const std::string marker = folder.file("ran");
   const std::string odd[]{"a\nsystem 'touch " + marker + "'\n", "it's", "back`touch " + marker + "`tick",

@@ -1,6 +1,7 @@
 #include "workbench/session/resolve_history.h"
 
 #include "session_fixture.h"
+#include "tests/support/sanitized.h"
 
 #include <algorithm>
 #include <chrono>
@@ -94,7 +95,8 @@ TEST_CASE("under the presets and on the scenes they were recorded with, ticks gi
   CHECK(again.different_ticks == 0);
 }
 
-TEST_CASE("a smaller gain makes more iterations, and the ticks it no longer solves are listed") {
+TEST_CASE("a smaller gain makes more iterations, and the ticks it no longer solves are listed" *
+          doctest::skip(testing::kSanitized)) {
   Preset preset;
   preset.solver.method = Method::paper;
   auto session = session_on(test::torus_scene(), preset);

@@ -165,7 +165,8 @@ TEST_CASE("a plain tick is nothing and costs one solve, and the threshold of man
   CHECK(explain(slow, {10000}).cause == TickCause::nothing);
 }
 
-TEST_CASE("a finger in the air over a hollow is not said to touch its sides, and no smaller one is its cure") {
+TEST_CASE("a finger in the air over a hollow is not said to touch its sides, and no smaller one is its cure" *
+          doctest::skip(testing::kSanitized)) {
   const ScenePtr torus = scene_of(*generate_mesh("torus"));
   std::map<Method, int> told;
   for (const Method method : {Method::paper, Method::robust, Method::newton})

@@ -17,7 +17,8 @@ ScenePtr with_file_normals(const PolygonMesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("a fine sphere decimates to the limit's angle, keeps its smooth surface both ways, and solves") {
+TEST_CASE("a fine sphere decimates to the limit's angle, keeps its smooth surface both ways, and solves" *
+          doctest::skip(testing::kSanitized)) {
   const ScenePtr fine = scene_of(make_icosphere(0.04, 4));
   const double limit_deg = 14.8, deviation = 80e-6;
   const DecimateResult result = decimate(*fine, {limit_deg, deviation});
