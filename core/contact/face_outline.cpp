@@ -3,6 +3,7 @@
 #include "core/base/float_bounds.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace tangent {
@@ -20,6 +21,7 @@ FaceOutline face_outline(const ContactMesh& mesh, std::uint32_t t, NormalForm fo
   const std::array<Vec3, 3> p = mesh.positions(t), n = mesh.normals(t);
   FaceOutline outline{};
   outline.origin = p[0];
+  std::array<Vec3, 3> middle_normals{};
   outline.has_middles = true;
   for (std::uint32_t k = 0; k < 3; ++k) {
     const std::uint32_t j = (k + 1) % 3;
@@ -34,11 +36,11 @@ FaceOutline face_outline(const ContactMesh& mesh, std::uint32_t t, NormalForm fo
       continue;
     }
     const double share = (form == NormalForm::bernstein ? 1.0 : 0.5) / std::sqrt(sum2);
-    outline.middle_normals[k] = share * (sum - (2.0 * glm::dot(side, sum) / side2) * side);
+    middle_normals[k] = share * (sum - (2.0 * glm::dot(side, sum) / side2) * side);
   }
   const std::array<Vec3, 3> from_first{Vec3(0.0), p[1] - p[0], p[2] - p[0]};
   const double size2 = std::max(glm::dot(from_first[1], from_first[1]), glm::dot(from_first[2], from_first[2]));
-  outline.lanes = {lanes_of(from_first), lanes_of(n), lanes_of(outline.middle_normals), above(std::sqrt(size2))};
+  outline.lanes = {lanes_of(from_first), lanes_of(n), lanes_of(middle_normals), above(std::sqrt(size2))};
   return outline;
 }
 

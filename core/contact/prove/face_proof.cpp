@@ -3,7 +3,6 @@
 #include "core/base/tolerances.h"
 #include "core/contact/follow/step_rule.h"
 #include "core/contact/prove/certain_margin.h"
-#include "core/contact/prove/corner_misses.h"
 #include "core/contact/prove/miss_factors.h"
 
 #include <algorithm>
@@ -186,16 +185,6 @@ PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double 
   }
   PatchFront front;
   return exclude(patch, factors, enough_m, 0.0, slack, stands_for.sides, front);
-}
-
-static CornerMisses misses_of(const ContactMesh& mesh, std::uint32_t t, const Vec3& centre) {
-  return {mesh, t, {centre, centre, centre}};
-}
-
-double corner_exclusion(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre) {
-  const CornerMisses misses = misses_of(cache.mesh(), t, centre);
-  if (!(misses.least() > 0.0)) return 0.0;
-  return certain_margin(misses.clear(cache.outline(t, form)), rounding_of_margin(centre, misses.p[0]));
 }
 
 }  // namespace tangent

@@ -72,8 +72,4 @@ struct StandIn {
 };
 PatchExclusion exclude_contact(const PnPatch& patch, const Vec3& centre, double enough_m, const StandIn& stands_for);
 
-/// A first look at a face from its corners' places and normals alone, without its patch: no centre nearer than this has
-/// a contact on it, as far as the direction of the middle of the corners' misses (c - P) x N tells. 0: look closer.
-double corner_exclusion(PatchCache& cache, std::uint32_t t, NormalForm form, const Vec3& centre);
-
 }  // namespace tangent

@@ -15,22 +15,24 @@ Four absolute(const Four& x) { return max(x, -x); }
 }  // namespace
 
 FourCore::FourCore(const FingerCore& core)
-    : ball_(above(core.ball_m())),
-      reach_(below(core.reach_m())),
-      lever_(above(core.lever_m())),
-      longest_(above(core.longest_m())),
-      pair_(above(core.longest_m() * core.width_m())),
-      turns_per_m_(core.turn_within(1.0) > 0.0 ? above(core.turn_within(1.0)) : 0.0f) {
+    : ball_(Four{} + above(core.ball_m())),
+      reach_(Four{} + below(core.reach_m())),
+      longest_(Four{} + above(core.longest_m())),
+      flattest_(Four{} + above(core.flattest_m() - core.ball_m())),
+      pair_(Four{} + above(core.longest_m() * core.width_m())) {
   const Vec3& axes = core.axes_m();
-  shortest_ = below(std::min({axes.x, axes.y, axes.z}));
-  sharpest_ = below(core.sharpest_m() - core.ball_m());
-  flattest_ = above(core.flattest_m() - core.ball_m());
+  shortest_ += below(std::min({axes.x, axes.y, axes.z}));
+  sharpest_ += below(core.sharpest_m() - core.ball_m());
+  const float lever = above(core.lever_m());
+  lever2_ += lever * lever;
+  turns_ = core.turn_within(1.0) > 0.0 && lever > 0.0f;
+  if (core.turn_within(1.0) > 0.0) turns_per_m_ += above(core.turn_within(1.0));
   for (int k = 0; k < 3; ++k) {
     const auto at = static_cast<std::size_t>(k);
-    axes_[at] = static_cast<float>(axes[k]);
-    squares_[at] = static_cast<float>(axes[k] * axes[k]);
+    axes_[at] = all_four(axes[k]);
+    squares_[at] = all_four(axes[k] * axes[k]);
     squares_sum_ += squares_[at];
-    for (int j = 0; j < 3; ++j) rotation_[at][static_cast<std::size_t>(j)] = static_cast<float>(core.rotation()[k][j]);
+    for (int j = 0; j < 3; ++j) rotation_[at][static_cast<std::size_t>(j)] = all_four(core.rotation()[k][j]);
   }
 }
 
@@ -38,16 +40,14 @@ FourCore::FourCore(const FingerCore& core)
 Four FourCore::largest_radius(const Four& least_length) const {
   const Four per = 1.0f / least_length, turned = pair_ * per;
   const Four radius = min(longest_ * longest_ * per, turned * turned * per);
-  return least_length > Four{} ? min(Four{} + flattest_, radius) : Four{} + flattest_;
+  return least_length > Four{} ? min(flattest_, radius) : flattest_;
 }
 
 // As FingerCore::slide_m of the whole core.
 Four FourCore::slide(const Four& least_length, const Four& way) const {
   const Four across =
-      max(Four{} + (longest_ - sharpest_), largest_radius(least_length - longest_ * turns_per_m_ * way) - shortest_);
-  const Four rate = turns_per_m_ > 0.0f && lever_ > 0.0f
-                        ? max(Four{} + 1.0f, sqrt(lever_ * lever_ + across * across) / reach_)
-                        : Four{} + 1.0f;
+      max(longest_ - sharpest_, largest_radius(least_length - longest_ * turns_per_m_ * way) - shortest_);
+  const Four rate = turns_ ? max(Four{} + 1.0f, sqrt(lever2_ + across * across) / reach_) : Four{} + 1.0f;
   return min(rate * way, 2.0f * (way + longest_));
 }
 
@@ -55,9 +55,9 @@ FourMask FourCore::misses(const FourParts& p, float least_cosine) const {
   const Four zero{};
   std::array<Four, 3> x, y, n;  // the centre from the middle and y = A N of the cone's axis, both in the finger's frame
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::array<float, 3>& r = rotation_[k];
-    x[k] = p.away[0] * r[0] + p.away[1] * r[1] + p.away[2] * r[2];
-    y[k] = axes_[k] * (p.axis[0] * r[0] + p.axis[1] * r[1] + p.axis[2] * r[2]);
+    const FourVec3& r = rotation_[k];
+    x[k] = dot(p.away, r);
+    y[k] = axes_[k] * dot(p.axis, r);
   }
   // FingerCore::apart_m.
   const Four x2 = dot(x, x);
@@ -73,7 +73,7 @@ FourMask FourCore::misses(const FourParts& p, float least_cosine) const {
   const Four length2 = dot(y, y), length = sqrt(length2), cosine = p.cos_half;
   {
     const std::array<Four, 3> z{axes_[0] * y[0], axes_[1] * y[1], axes_[2] * y[2]};
-    const Four longest2 = zero + longest_ * longest_;
+    const Four longest2 = longest_ * longest_;
     const Four across = sqrt(positive(dot(z, z) - length2 * length2) + kRatio * longest2 * length2);
     const Four other2 = min(longest2, (1.0f + kRatio) * squares_sum_ - length2), turn = 0.5f * (length2 - other2);
     const Four twice = 2.0f * cosine * cosine - 1.0f, sine = 2.0f * cosine * p.sin_half;
@@ -88,7 +88,7 @@ FourMask FourCore::misses(const FourParts& p, float least_cosine) const {
   const Four away2 = dot(to_support, to_support), along = dot(p.away, p.axis) - length;
   const Four across = sqrt(positive(away2 - along * along - kRatio * away2));
   const Four chord = sqrt(positive(2.0f - 2.0f * cosine)), least_length = (1.0f - kRatio) * length - longest_ * chord;
-  const Four moves = min(zero + 2.0f * longest_, 1.12f * chord * largest_radius(least_length));
+  const Four moves = min(2.0f * longest_, 1.12f * chord * largest_radius(least_length));
   const Four clear =
       across * cosine - absolute(along) * p.sin_half - (1.0f + kRatio) * (moves + p.radius_m) - 8.0f * p.room_m;
   missed |= (cosine > least_cosine) & (length2 > zero) & (clear > (1.0f + kRatio) * slide(least_length, p.way_m));

@@ -34,10 +34,11 @@ struct FourCore {
   Four largest_radius(const Four& least_length) const;
   Four slide(const Four& least_length, const Four& way) const;
 
-  std::array<std::array<float, 3>, 3> rotation_{};  ///< columns
-  std::array<float, 3> axes_{}, squares_{};
-  float ball_ = 0, reach_ = 1, lever_ = 0, longest_ = 0, shortest_ = 0, sharpest_ = 0, flattest_ = 0, pair_ = 0,
-        squares_sum_ = 0, turns_per_m_ = 0;
+  std::array<FourVec3, 3> rotation_{};  ///< columns
+  FourVec3 axes_{}, squares_{};
+  Four ball_{}, reach_{}, longest_{}, shortest_{}, sharpest_{}, flattest_{}, pair_{}, squares_sum_{}, turns_per_m_{};
+  Four lever2_{};       ///< squared
+  bool turns_ = false;  ///< and its depth changes by that
 };
 
 }  // namespace tangent

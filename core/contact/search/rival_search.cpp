@@ -216,10 +216,11 @@ bool RivalSearch::leads_to(std::size_t i, std::uint32_t t, double margin_m) {
 
 double RivalSearch::flattest_height(const CoreSupport& support, std::uint32_t t, double margin_m) {
   const PnPatch& patch = context_.cache.patch(t, settings_.normal_form);
+  const Vec3 to_point = core_->centre() - support.point;  // |A N| is N's part along it, or more
   double least = support.length;
   for (std::size_t k = 0; k < patch.normals.size(); ++k) {
     const double share = k < n110 ? 1.0 : 0.5 * patch.mixed_weight;
-    least = std::min(least, share * glm::dot(core_->scaled(patch.normals[k]), support.direction));
+    least = std::min(least, share * glm::dot(patch.normals[k], to_point));
   }
   return core_->ball_m() + core_->largest_radius(core_->length_after(least, margin_m));
 }
