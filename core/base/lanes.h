@@ -11,24 +11,31 @@ using Two = double __attribute__((vector_size(16)));
 using Four = float __attribute__((vector_size(16)));
 using FourMask = std::int32_t __attribute__((vector_size(16)));  ///< of a comparison: -1 where it holds, else 0
 
+// One instruction each, by the names of GCC's builtins: its header would be installed with this one.
+#if defined(__SSE__) && !defined(__clang__)
+#define TANGENT_GCC_LANES
+#endif
+
 /// Bit i: whether it holds of number i.
 inline std::uint32_t bits_of(const FourMask& mask) {
-#ifdef __SSE__
-  return static_cast<std::uint32_t>(__builtin_ia32_movmskps(reinterpret_cast<const Four&>(mask)));
+#ifdef TANGENT_GCC_LANES
+  return static_cast<std::uint32_t>(__builtin_ia32_movmskps(reinterpret_cast<Four>(mask)));
 #else
-  return (mask[0] & 1u) | (mask[1] & 2u) | (mask[2] & 4u) | (mask[3] & 8u);
+  const auto bit = [&](int i) { return static_cast<std::uint32_t>(mask[i]) & (1u << i); };
+  return bit(0) | bit(1) | bit(2) | bit(3);
 #endif
 }
 
-#ifdef __SSE__  // one instruction each; by the names of builtins, since this header is installed
+#ifdef TANGENT_GCC_LANES
 inline Four max(const Four& a, const Four& b) { return __builtin_ia32_maxps(a, b); }
 inline Four min(const Four& a, const Four& b) { return __builtin_ia32_minps(a, b); }
 inline Four sqrt(const Four& x) { return __builtin_ia32_sqrtps(x); }
 #else
 inline Four max(const Four& a, const Four& b) { return a > b ? a : b; }
 inline Four min(const Four& a, const Four& b) { return a < b ? a : b; }
-inline Four sqrt(const Four& x) { return {std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3])}; }
+inline Four sqrt(const Four& x) { return Four{std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3])}; }
 #endif
+#undef TANGENT_GCC_LANES
 
 /// Four vectors, by coordinates.
 using FourVec3 = std::array<Four, 3>;
