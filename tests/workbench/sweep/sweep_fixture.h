@@ -21,6 +21,8 @@ using tangent::testing::FullDisk;
 
 class SmallSweep {
  public:
+  static constexpr int kTicks = tangent::testing::kSanitized ? 100 : 600;  ///< of its motion
+
   explicit SmallSweep(const std::string& more = "") {
     for (const char* name : {"cube", "torus"})
       REQUIRE(write_obj(*generate_mesh(name), file(name + std::string(".obj")), 1e-3));
@@ -68,9 +70,8 @@ class SmallSweep {
   }
 
  private:
-  /// Slides over both meshes in 600 ticks, under sanitizers in 100.
+  /// Slides over both meshes.
   static std::string poses() {
-    constexpr int kTicks = tangent::testing::kSanitized ? 100 : 600;
     std::string out = "t_s,x_m,y_m,z_m\n";
     for (int i = 0; i < kTicks; ++i) {
       const double x = -0.03 + 0.06 / kTicks * i;

@@ -72,9 +72,9 @@ TEST_CASE("a cell's numbers are those of solving its motion by itself") {
     unconverged += output.status == TickStatus::unconverged;
     planes += static_cast<std::uint64_t>(output.iterations);
   }
-  CHECK(numbers->ticks == 600);
+  CHECK(numbers->ticks == SmallSweep::kTicks);
   CHECK(numbers->unconverged == unconverged);
-  CHECK(numbers->mean_iterations == approx(static_cast<double>(planes) / 600.0));
+  CHECK(numbers->mean_iterations == approx(static_cast<double>(planes) / SmallSweep::kTicks));
   CHECK(numbers->compared > 0);
   CHECK(numbers->error_worst_m > 0.0);
   CHECK(numbers->error_worst_m < 1e-5);
