@@ -38,7 +38,7 @@ struct FourCore {
   FourVec3 axes_{}, squares_{};
   Four ball_{}, reach_{}, longest_{}, shortest_{}, sharpest_{}, flattest_{}, pair_{}, squares_sum_{}, turns_per_m_{};
   Four lever2_{};       ///< squared
-  bool turns_ = false;  ///< and its depth changes by that
+  bool turns_ = false;  ///< the finger may turn, and its depth changes by that
 };
 
 }  // namespace tangent

@@ -287,7 +287,7 @@ TEST_CASE("100 changes inside the safe ranges are all kept" * doctest::skip(test
                   *damping = find_preset_key("force.damping_n_s_per_m");
   int changes = 0, wanted_changes = 0;
   std::vector<Body> all = bodies();
-  if (rounds(20) < 20) all = {all[1]};  // under sanitizers: the sweeps of all three take minutes there
+  if (rounds(20) < 20) all = {all[1]};  // in debug builds: the sweeps of all three take minutes there
   for (const Body& body : all) {
     CAPTURE(body.name);
     SimulatedForceOptions options;  // as the program simulates it
