@@ -149,6 +149,10 @@ inline constexpr double kSoonTouched = 100.0;
 /// same from 3 to 8, the 99.9th percentile a third higher with 8.
 inline constexpr double kWatchTicks = 8.0, kDearTicks = 4.0;
 
+/// Ticks, at that speed, and part of the contact's height, that ground which is not steady is taken for a known contact's
+/// slope. Larger: proofs of slopes hold in fewer triangles; smaller: searches look at them again and again.
+inline constexpr double kSlopeTicks = 12.0, kLargestSlope = 0.3;
+
 /// The look-ahead is a ball whose middle lies this part of it ahead of the finger, in the direction in which it moves,
 /// at most so many ticks. Larger: a finger that turns round has soon left it; smaller: the ball for the same way is
 /// larger.
@@ -171,7 +175,7 @@ inline constexpr int kCheapLooks = 12, kDearLooks = 48;
 /// Part of the look-ahead that remains where a triangle could neither be ruled out nor be solved: half a tick. A
 /// contact comes up there at once where the offset surface unfolds. Larger: it takes over late; smaller: nothing, the
 /// next tick looks anyway.
-inline constexpr double kUnresolvedMargin = 0.5 / kWatchTicks;
+inline constexpr double kUnresolvedMargin = 0.5 / kSlopeTicks;
 
 /// Solver tolerances. Contacts nearer to each other than this are the same one. Larger: places that merge are one too
 /// soon; smaller: one place solved for twice counts twice.

@@ -105,15 +105,20 @@ bool look_for_touched(ContactContext& context, const SearchStructures& search, c
   const double least = state.unentered || (!is_round(context.finger) && tracked.contact.height_m < 0.0)
                            ? -context.hystereses_m(kLeftTouch)
                            : -std::numeric_limits<double>::infinity();
-  bool refused = false;
+  double refused_for = std::numeric_limits<double>::infinity();  // so far until one that does not count may do so
   for (const TouchedContact& c : rival.touched.all()) {
-    const bool counts = c.contact.penetration_m >= least &&
-                        was_entered(step_of(context), c.contact.penetration_m, depth) &&
+    const double deep = c.contact.penetration_m;
+    const bool counts = deep >= least && was_entered(step_of(context), deep, depth) &&
                         !(has_far_side && is_far_side(c, tracked)) && can_be_followed(context, c, decided.evaluations);
-    if (counts) touched.add(c, kMergedPlaces * context.settings.tolerance_m);
-    refused = refused || !counts;
+    if (counts) {
+      touched.add(c, kMergedPlaces * context.settings.tolerance_m);
+    } else {
+      const double nearer = least - deep;  // a depth changes by no more than the finger moves
+      refused_for = std::min(refused_for, std::max(nearer, unentered_for_m(step_of(context), deep, depth)));
+    }
   }
-  if (refused) forget_surroundings(state.clearance);
+  if (refused_for < std::numeric_limits<double>::infinity())
+    forget_surroundings(state.clearance, gone_m(state.clearance, context.finger, context.pose), refused_for);
   if (touched.count > followed || touched.full()) decided.places_changed = true;
   rival.deeper = rival.deeper && !pushes_with_others(rival.best.contact) &&
                  contact_rank(context.finger, rival.best.contact) < deeper_m;

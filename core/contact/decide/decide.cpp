@@ -55,6 +55,10 @@ bool was_entered(const FingerStep& step, double depth_m, double tracked_depth_m)
   return was_put_elsewhere(step) || depth_m <= entered_beside_m(step, tracked_depth_m);
 }
 
+double unentered_for_m(const FingerStep& step, double depth_m, double tracked_depth_m) {
+  return was_put_elsewhere(step) ? 0.0 : 0.5 * std::max(0.0, depth_m - entered_beside_m(step, tracked_depth_m));
+}
+
 bool is_pressed(const FingerStep& step, double before_m) {
   return !was_put_elsewhere(step) && before_m > explained_m(step, step.late_m);
 }

@@ -61,6 +61,10 @@ bool was_put_elsewhere(const FingerStep& step);
 /// tracked one by more than the hysteresis: no depth changes by more than the finger moves.
 bool was_entered(const FingerStep& step, double depth_m, double tracked_depth_m);
 
+/// Of a place that was not entered: how far the finger goes at least before it may count, m. Both depths change by no
+/// more than that.
+double unentered_for_m(const FingerStep& step, double depth_m, double tracked_depth_m);
+
 /// How deep a place at which the contact leapt, or started anew where it was lost, can be if the finger has come into
 /// it from outside: no deeper by over kLeapOfFinger than what was tracked, unless the finger has moved as far.
 /// `before_m`: depth of what was tracked; `was_free`: in the last tick, in which a contact was found and touched

@@ -26,9 +26,11 @@ void set_free(Clearance& known) {
   known.free_m = (1.0 - 1e-6) * least;
 }
 
-void forget_surroundings(Clearance& known) {
-  known.margin_m = std::min(known.margin_m, 0.0);
-  known.free_m = std::min(known.free_m, 0.0);
+// Less by the way here, since a finger may go back by known.centre.
+void forget_surroundings(Clearance& known, double gone, double within_m) {
+  const double margin = std::max(0.0, within_m - gone);
+  known.margin_m = std::min(known.margin_m, margin);
+  known.free_m = std::min(known.free_m, margin);
 }
 
 /// What a search looks at where such a place is.

@@ -54,8 +54,9 @@ bool stayed_within(double then_m, double before_m, double now_m, double here_m, 
 /// The least of the margins, as the radius up to which nothing is asked.
 void set_free(Clearance& known);
 
-/// The next tick looks everywhere: a place was found that is not followed, so that its surroundings are not known.
-void forget_surroundings(Clearance& known);
+/// A place was found that is not followed, so that its surroundings are not known: a finger that is `gone` from
+/// known.centre looks everywhere when it has gone `within_m` further, at 0 with the next tick.
+void forget_surroundings(Clearance& known, double gone = 0.0, double within_m = 0.0);
 
 /// The next look is at that place, which is followed no more, and from there on it is watched. False: nothing is known
 /// that it could be added to, or there is no room.

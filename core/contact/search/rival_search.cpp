@@ -26,9 +26,9 @@ double distance2(const Vec3& a, const Vec3& b) { return glm::dot(a - b, a - b); 
 
 }  // namespace
 
-double ticks_ahead_m(double rank, double moved_m, double ticks) {
+double ticks_ahead_m(double rank, double moved_m, double ticks, double largest) {
   // Where not even one tick ahead can be seen, as after a leap, looking ahead would be for nothing.
-  const double most = kLargestWatch * std::abs(rank);
+  const double most = largest * std::abs(rank);
   return (moved_m < most ? std::min(ticks * moved_m, most) : 0.0) + kSmallestWatch * std::abs(rank);
 }
 
@@ -42,7 +42,8 @@ RivalSearch::RivalSearch(ContactContext& context, const SearchStructures& search
       margin_m_(question.margin_m),
       ahead_(ahead),
       any_turn_(any_turn),
-      slope_m_(ticks_ahead_m(contact_rank(context.finger, tracked.contact), context.moved_m, kWatchTicks)),
+      slope_m_(
+          ticks_ahead_m(contact_rank(context.finger, tracked.contact), context.moved_m, kSlopeTicks, kLargestSlope)),
       least_m_(ticks_ahead_m(contact_rank(context.finger, tracked.contact), context.moved_m, kDearTicks)),
       deepest_(question.bound_m),
       settings_(robust(context.settings)),

@@ -1,6 +1,7 @@
 // One search for deeper places from one pose: of everything, or of the watched triangles whose time has come.
 #pragma once
 
+#include "core/base/tolerances.h"
 #include "core/contact/prove/basin.h"
 #include "core/contact/prove/triangle_proof.h"
 #include "core/contact/search/height_change.h"
@@ -17,7 +18,7 @@
 namespace tangent {
 
 /// Some ticks at the finger's present speed, within shares of the tracked contact's rank.
-double ticks_ahead_m(double rank, double moved_m, double ticks);
+double ticks_ahead_m(double rank, double moved_m, double ticks, double largest = kLargestWatch);
 
 /// What one triangle means for the tracked contact.
 struct Look {

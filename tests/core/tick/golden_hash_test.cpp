@@ -20,7 +20,7 @@ struct Golden {
 // and say in the commit what changed them.
 constexpr Golden kGoldenPaper{0x3cc4b7b0487c8346ull, 0x73ade9e4194d51adull};
 constexpr Golden kGoldenNewton{0x7f6d3d50996b66a2ull, 0x9aa8c45fa97d4566ull};
-constexpr Golden kGoldenRobust{0x07a10ff22b2667b3ull, 0x2177d5cd822a9757ull};
+constexpr Golden kGoldenRobust{0x9fabf12a48d26700ull, 0x2177d5cd822a9757ull};
 /// Robust with force.contacts = all; the others with deepest.
 constexpr Golden kGoldenEveryPlace{0xfdc8813cee77c627ull, 0x9f7fb886845e5ac0ull};
 

@@ -385,3 +385,22 @@ TEST_CASE("what was lost a moment ago may come up again as deep, but the finger 
   CHECK_FALSE(is_pressed(step, 0.4e-3));
   CHECK(came_out(step, -0.2e-3));
 }
+
+TEST_CASE("a place that was not entered stays so as far as is told, while both depths change as fast as they can") {
+  Random random{41};
+  int told = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const FingerStep step{random.in(0.0, 3e-4), 20e-6, random.in(0.0, 2e-4), random.in(0.0, 2e-4)};
+    const double deep = random.in(0.0, 5e-3), tracked = random.in(-2e-3, 4e-3);
+    const double way = unentered_for_m(step, deep, tracked);
+    if (was_entered(step, deep, tracked)) {
+      CHECK(way == 0.0);
+      continue;
+    }
+    told += way > 0.0;
+    const double gone = 0.999 * way;
+    CHECK_FALSE(was_entered(step, deep - gone, tracked + gone));
+    if (tracked > 0.0) CHECK(was_entered(step, deep - 1.001 * way - 1e-9, tracked + 1.001 * way));
+  }
+  CHECK(told > 5000);
+}

@@ -378,3 +378,33 @@ TEST_CASE("a finger that leaves while the force ramps feels none in free air") {
   const std::vector<Vec3> forces = ramp_after(preset, {3e-4, 3e-4, 0.0}, [](Preset&) {});
   for (std::size_t i = 8; i < forces.size(); ++i) CHECK(forces[i] == Vec3(0.0));  // 1.3 mm deep at the most
 }
+
+TEST_CASE("a place that does not count, since it is far from touched, is not searched for at every tick") {
+  // Behind a sheet that it has not entered, the finger goes in over the floor of another, 7 mm under its centre.
+  PolygonMesh sheets;
+  sheets.name = "two sheets";
+  for (const Vec3& at : {Vec3(-0.030, -0.020, 0.0), Vec3(0.0, -0.020, -0.0115)}) {
+    const auto first = static_cast<std::uint32_t>(sheets.positions.size());
+    for (const Vec3& corner : {Vec3(0.0), Vec3(0.060, 0.0, 0.0), Vec3(0.060, 0.040, 0.0), Vec3(0.0, 0.040, 0.0)})
+      sheets.positions.push_back(at + corner);
+    sheets.add_face({first, first + 1, first + 2});
+    sheets.add_face({first, first + 2, first + 3});
+  }
+  Stepper stepper(scene_of(sheets));
+  TickState state;
+  const Preset preset = all_of(0.005);
+  int beside = 0, known = 0, pushed = 0;
+  for (int i = 0; i < 400; ++i) {
+    const double x = -0.020 + 1e-4 * i;
+    const TickOutput out = stepper.step(preset, at_position(1e-3 * i, {x, 0.0, -0.0045}), state);
+    if (i == 0) state.unentered = 1;  // as where it was come upon from behind
+    REQUIRE(state.unentered == 1);
+    pushed += i > 0 && out.decided_force_n != Vec3(0.0);
+    if (x < 0.0) continue;
+    ++beside;
+    known += state.clearance.margin_m > 0.0;
+  }
+  CHECK(beside == 200);
+  CHECK(known > 180);
+  CHECK(pushed == 0);
+}

@@ -160,6 +160,30 @@ TEST_CASE("a place that is followed no more is due at once, where anything is kn
   CHECK(!watch_again(nothing, mesh, place));
 }
 
+TEST_CASE("where surroundings are forgotten everything is asked anew at once, or within that way from there") {
+  Random random{5};
+  int asked = 0;
+  for (int i = 0; i < 3000; ++i) {
+    Clearance known = watching_one();
+    known.watched_count = 0;
+    set_free(known);
+    const double within = i % 3 == 0 ? 0.0 : random.in(0.0, 6e-4);
+    const Vec3 here = known.centre + random.in(0.0, 3e-4) * random.direction();
+    const FingerPose there{here + random.in(0.0, 8e-4) * random.direction(), Quat(1.0, 0.0, 0.0, 0.0)};
+    const double gone = glm::distance(there.position, known.centre);
+    const bool before = is_beyond(known, there, gone, 0.0196);
+    forget_surroundings(known, glm::distance(here, known.centre), within);
+    const bool beyond = is_beyond(known, there, gone, 0.0196);
+    CHECK((beyond || (!before && glm::distance(there.position, here) <= within + 1e-12)));
+    CHECK(known.free_m <= known.margin_m);
+    asked += beyond && !before;
+  }
+  CHECK(asked > 100);
+  Clearance wide = watching_one(), narrow = wide;
+  forget_surroundings(wide, 0.0, 1.0);  // no further than it was
+  CHECK(wide.margin_m == narrow.margin_m);
+}
+
 TEST_CASE("unlimited clearance stays so") {
   Clearance c = Clearance::unlimited();
   const FingerPose far{Vec3(1.0, 2.0, 3.0), Quat(1.0, 0.0, 0.0, 0.0)};
