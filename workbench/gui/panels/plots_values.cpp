@@ -40,7 +40,8 @@ std::array<double, kColumns> values_of(const TimeModel& time, const PlotLink& li
     return tick ? static_cast<double>(store.value(channel, *tick)) : nan;
   };
   const ServoRecord* record = time.tick().record();
-  const std::optional<std::uint64_t> now = record != nullptr ? std::optional(record->tick.tick) : std::nullopt;
+  std::optional<std::uint64_t> now;
+  if (record != nullptr) now = record->tick.tick;
   const MinMax range = store.min_max(channel, from, to);
   const SampleSums sums = store.sums(channel, from, to);
   const double ghost = again != nullptr && now ? static_cast<double>(again->value(curve.ghost.value_or(0), *now)) : nan;
