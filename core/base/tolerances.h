@@ -149,8 +149,8 @@ inline constexpr double kSoonTouched = 100.0;
 /// same from 3 to 8, the 99.9th percentile a third higher with 8.
 inline constexpr double kWatchTicks = 8.0, kDearTicks = 4.0;
 
-/// Ticks, at that speed, and part of the contact's height, that ground which is not steady is taken for a known contact's
-/// slope. Larger: proofs of slopes hold in fewer triangles; smaller: searches look at them again and again.
+/// Ticks, at that speed, and part of the contact's height, that ground which is not steady is taken for a known
+/// contact's slope. Larger: proofs of slopes hold in fewer triangles; smaller: searches look at them again and again.
 inline constexpr double kSlopeTicks = 12.0, kLargestSlope = 0.3;
 
 /// The look-ahead is a ball whose middle lies this part of it ahead of the finger, in the direction in which it moves,
