@@ -79,6 +79,32 @@ double touching_bound_m(const ContactContext& context, const TouchedContacts& to
   return is_round(finger) ? round_radius_m(finger) : finger.reach_m();
 }
 
+/// Adds those of the touched places that were `found` that count: they were entered, are not the far side of what the
+/// finger is in, and can be followed; `depth`: of what is known. How far the finger goes at least before one that does
+/// not count may do so, m; infinity where all do.
+double add_what_counts(ContactContext& context, const TouchedContacts& found, double depth, bool unentered,
+                       DecidedContact& decided, TouchedContacts& touched) {
+  const FingerStep step = step_of(context);
+  const TouchedContact tracked{decided.contact.plane, decided.contact.contact};
+  const bool has_far_side = !unentered && !was_put_elsewhere(step);
+  const double least = unentered || (!is_round(context.finger) && tracked.contact.height_m < 0.0)
+                           ? -context.hystereses_m(kLeftTouch)
+                           : -std::numeric_limits<double>::infinity();
+  double refused_for = std::numeric_limits<double>::infinity();
+  for (const TouchedContact& c : found.all()) {
+    const double deep = c.contact.penetration_m;
+    const bool counts = deep >= least && was_entered(step, deep, depth) && !(has_far_side && is_far_side(c, tracked)) &&
+                        can_be_followed(context, c, decided.evaluations);
+    if (counts) {
+      touched.add(c, kMergedPlaces * context.settings.tolerance_m);
+    } else {
+      const double nearer = least - deep;  // a depth changes by no more than the finger moves
+      refused_for = std::min(refused_for, std::max(nearer, unentered_for_m(step, deep, depth)));
+    }
+  }
+  return refused_for;
+}
+
 /// Looks for places that are touched and not followed yet. True where a deeper one that does not push with others, of a
 /// rank below `deeper_m`, takes over.
 bool look_for_touched(ContactContext& context, const SearchStructures& search, const Takeover& takeover,
@@ -100,23 +126,7 @@ bool look_for_touched(ContactContext& context, const SearchStructures& search, c
       std::max({depth_before(context, state), state.unentered ? 0.0 : decided.contact.contact.penetration_m,
                 found ? deepest_m(context, state.touched, decided.evaluations) : 0.0});
   const std::size_t followed = touched.count;
-  const TouchedContact tracked{decided.contact.plane, decided.contact.contact};
-  const bool has_far_side = !state.unentered && !was_put_elsewhere(step_of(context));
-  const double least = state.unentered || (!is_round(context.finger) && tracked.contact.height_m < 0.0)
-                           ? -context.hystereses_m(kLeftTouch)
-                           : -std::numeric_limits<double>::infinity();
-  double refused_for = std::numeric_limits<double>::infinity();  // so far until one that does not count may do so
-  for (const TouchedContact& c : rival.touched.all()) {
-    const double deep = c.contact.penetration_m;
-    const bool counts = deep >= least && was_entered(step_of(context), deep, depth) &&
-                        !(has_far_side && is_far_side(c, tracked)) && can_be_followed(context, c, decided.evaluations);
-    if (counts) {
-      touched.add(c, kMergedPlaces * context.settings.tolerance_m);
-    } else {
-      const double nearer = least - deep;  // a depth changes by no more than the finger moves
-      refused_for = std::min(refused_for, std::max(nearer, unentered_for_m(step_of(context), deep, depth)));
-    }
-  }
+  const double refused_for = add_what_counts(context, rival.touched, depth, state.unentered, decided, touched);
   if (refused_for < std::numeric_limits<double>::infinity())
     forget_surroundings(state.clearance, gone_m(state.clearance, context.finger, context.pose), refused_for);
   if (touched.count > followed || touched.full()) decided.places_changed = true;
