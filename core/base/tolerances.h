@@ -172,9 +172,9 @@ inline constexpr double kWatchReach = 60.0;
 inline constexpr float kLeastAhead = 0.0625f, kMostAhead = 8.0f;
 inline constexpr int kCheapLooks = 12, kDearLooks = 48;
 
-/// Part of the look-ahead that remains where a triangle could neither be ruled out nor be solved: half a tick. A
-/// contact comes up there at once where the offset surface unfolds. Larger: it takes over late; smaller: nothing, the
-/// next tick looks anyway.
+/// Part of the way for which slopes hold that remains where a triangle could neither be ruled out nor be solved: half a
+/// tick. A contact comes up there at once where the offset surface unfolds. Larger: it takes over late; smaller:
+/// nothing, the next tick looks anyway.
 inline constexpr double kUnresolvedMargin = 0.5 / kSlopeTicks;
 
 /// Solver tolerances. Contacts nearer to each other than this are the same one. Larger: places that merge are one too

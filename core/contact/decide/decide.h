@@ -61,8 +61,8 @@ bool was_put_elsewhere(const FingerStep& step);
 /// tracked one by more than the hysteresis: no depth changes by more than the finger moves.
 bool was_entered(const FingerStep& step, double depth_m, double tracked_depth_m);
 
-/// Of a place that was not entered: how far the finger goes at least before it may count, m. Both depths change by no
-/// more than that.
+/// Of a place that was not entered: how far the finger goes at least before it may count, at the step's speed, m: both
+/// depths change by no more than that. 0 where it was entered.
 double unentered_for_m(const FingerStep& step, double depth_m, double tracked_depth_m);
 
 /// How deep a place at which the contact leapt, or started anew where it was lost, can be if the finger has come into
